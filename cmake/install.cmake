@@ -77,6 +77,9 @@ foreach(module ${whirl_twin_library_modules})
   install(DIRECTORY src/${module} DESTINATION include/whirl_twin FILES_MATCHING PATTERN *.h)
 endforeach()
 
+# The site, where scripts/docs has built it.
+install(DIRECTORY ${PROJECT_BINARY_DIR}/docs/html DESTINATION share/doc/whirl_twin COMPONENT documentation OPTIONAL)
+
 if(NOT WHIRL_TWIN_ROS)
   install(DIRECTORY config/scenes config/studies DESTINATION share/whirl_twin/config)
 endif()

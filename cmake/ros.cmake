@@ -1,4 +1,4 @@
-# ROS 1: the messages and services of msg/, and catkin's idea of this package.
+# ROS 1: the messages of msg/, the services of srv/, and catkin's idea of this package.
 if(NOT PYTHON_EXECUTABLE)
   # Debian's ROS modules belong to Debian's Python, which need not be the first on PATH.
   set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that has the ROS modules")
@@ -11,10 +11,10 @@ find_package(catkin REQUIRED COMPONENTS ${whirl_twin_ros_packages} message_gener
 
 file(GLOB whirl_twin_messages CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/msg
   ${CMAKE_CURRENT_SOURCE_DIR}/msg/*.msg)
-file(GLOB whirl_twin_services CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/msg
-  ${CMAKE_CURRENT_SOURCE_DIR}/msg/*.srv)
+file(GLOB whirl_twin_services CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/srv
+  ${CMAKE_CURRENT_SOURCE_DIR}/srv/*.srv)
 add_message_files(DIRECTORY msg FILES ${whirl_twin_messages})
-add_service_files(DIRECTORY msg FILES ${whirl_twin_services})
+add_service_files(DIRECTORY srv FILES ${whirl_twin_services})
 generate_messages(DEPENDENCIES std_msgs)
 
 # A plugin is compiled for the processor the library is for, so that both align matrices alike.

@@ -77,22 +77,22 @@ bool roundsInItsLoop(const Scene& one) {
 std::string reasonFor(const StepChoice& choice, const SystemSpec& spec) {
   const Promise& p = choice.promise;
   if (p.kept) {
-    return fmt::format("error {:.1g}, known to {:.1g}, over {:g} s where {:g} is allowed{}",
-                       p.error, p.reference_error, spec.horizon, spec.tolerance,
-                       choice.raised ? "; its later motion needs shorter steps" : "");
+    return fmt::format("error {:.1g}, uncertainty {:.1g}, over {:g} s, tolerance {:g}{}", p.error,
+                       p.reference_error, spec.horizon, spec.tolerance,
+                       choice.raised ? "; the later motion needs shorter steps" : "");
   }
   const bool known = p.known_until >= spec.horizon;
-  std::string said = p.kept_until > 0.0 ? fmt::format("keeps {:g} until t = {:.3g} s",
+  std::string said = p.kept_until > 0.0 ? fmt::format("within {:g} until t = {:.3g} s",
                                                       spec.tolerance, p.kept_until)
-                                        : fmt::format("does not keep {:g}", spec.tolerance);
+                                        : fmt::format("tolerance {:g} not reached", spec.tolerance);
   if (p.known_until > p.kept_until) {
     said += std::isfinite(p.error)
                 ? fmt::format(", error {:.1g} over {:.3g} s", p.error, p.known_until)
-                : fmt::format(", no step resolves it over {:.3g} s", p.known_until);
+                : fmt::format(", not resolved by any step over {:.3g} s", p.known_until);
   }
-  return "the best here: " + said +
-         (known ? "" : fmt::format("; not known beyond {:.3g} s", p.known_until)) +
-         (choice.raised ? "; its later motion needs shorter steps" : "");
+  return "best choice: " + said +
+         (known ? "" : fmt::format("; unknown after {:.3g} s", p.known_until)) +
+         (choice.raised ? "; the later motion needs shorter steps" : "");
 }
 
 /// The largest error over a horizon that the twin would estimate of itself (observer.h), or the
@@ -223,7 +223,7 @@ StepChoice chooseStep(const Scene& given, double evaluations) {
     plain.substeps = spec.substeps;
     plain.reason = structural.reason + "; not calibrated: " +
                    (evaluations <= 0.0     ? "too many systems"
-                    : roundsInItsLoop(one) ? "a converter of its controllers rounds"
+                    : roundsInItsLoop(one) ? "its controllers quantize"
                                            : "its steps take long to prepare");
     return plain;
   }

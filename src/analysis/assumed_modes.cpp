@@ -20,10 +20,9 @@ void requireIndependentShapes(const Eigen::MatrixXd& shapes, Eigen::Index coordi
   }
   const PivotedQr factors(shapes.colwise().normalized(), 1e-10);
   if (factors.rank() < shapes.cols() || shapes.colwise().squaredNorm().minCoeff() == 0.0) {
-    throw Refusal(fmt::format(
-        "assumed modes: expected linearly independent shapes, found {} that span only {} "
-        "directions: a shape that is a sum of the others adds no motion",
-        shapes.cols(), factors.rank()));
+    throw Refusal(
+        fmt::format("assumed modes: must be linearly independent shapes, found {} of rank {}",
+                    shapes.cols(), factors.rank()));
   }
 }
 

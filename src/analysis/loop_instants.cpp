@@ -59,10 +59,10 @@ std::optional<Ratio> ratioOf(double x) {
   for (const LoopController& controller : controllers) {
     rates.push_back(fmt::format("{:.17g} ({})", controller.rate, controller.name));
   }
-  throw RunFailure(fmt::format(
-      "sampled loop: the rates {} Hz have no common period of at most {} samples: such a loop is "
-      "simulated, but not judged",
-      fmt::join(rates, ", "), kMostLoopSamples));
+  throw RunFailure(
+      fmt::format("sampled loop: the rates {} Hz must have a common period of at most {} samples "
+                  "for an analysis (a simulation is possible)",
+                  fmt::join(rates, ", "), kMostLoopSamples));
 }
 
 /// Of each controller in the shortest common period.

@@ -289,8 +289,8 @@ RotorReduction report(const FullRotor& full, const Choice& choice, const std::st
   r.note = fmt::format(
       "{} of {} modes{}: response error {:.1e}{} up to {:.4g} rad/s, eigenvalue error {:.1e}",
       choice.shapes.cols(), full.dof(),
-      others > 0 ? fmt::format(" ({} of them shapes of the response)", others) : "",
-      r.error.response, why, r.highest_speed, r.error.eigenvalue);
+      others > 0 ? fmt::format(" ({} of them response vectors)", others) : "", r.error.response,
+      why, r.highest_speed, r.error.eigenvalue);
   return r;
 }
 
@@ -323,7 +323,7 @@ RotorReduction reduceRotorTo(const LinearRotor& rotor, const std::vector<Station
     }
     if (count == full.dof()) {
       return report(full, choose(full, count, kEveryError),
-                    fmt::format(" (asked for {:.3g})", tolerance));
+                    fmt::format(" (required {:.3g})", tolerance));
     }
   }
 }

@@ -40,8 +40,8 @@ bool finite(const MatrixXd& m) {
 
 [[noreturn]] void noSolution() {
   throw RunFailure(
-      "Riccati's equation: no gain makes every motion die out, or one that does not die out by "
-      "itself costs nothing");
+      "Riccati equation: no stabilizing gain: an unstable state is not controllable or has no "
+      "weight");
 }
 
 void checkCost(const MatrixXd& a, const MatrixXd& b, const QuadraticCost& cost) {
@@ -51,11 +51,11 @@ void checkCost(const MatrixXd& a, const MatrixXd& b, const QuadraticCost& cost) 
                     cost.state.cols() == n && cost.input.rows() == m && cost.input.cols() == m &&
                     (cost.cross.size() == 0 || (cost.cross.rows() == n && cost.cross.cols() == m));
   if (!fits) {
-    throw std::logic_error("Riccati's equation: the matrices do not fit together");
+    throw std::logic_error("Riccati equation: the sizes of the matrices do not match");
   }
   if (!finite(a) || !finite(b) || !finite(cost.state) || !finite(cost.input) ||
       !finite(cost.cross)) {
-    throw Refusal("Riccati's equation: expected finite numbers");
+    throw Refusal("Riccati equation: all matrices must be finite");
   }
 }
 
@@ -67,7 +67,7 @@ MatrixXd crossOf(const QuadraticCost& cost) {
 Cholesky inverseOf(const MatrixXd& input_cost) {
   Cholesky factors(input_cost);
   if (input_cost.size() > 0 && !factors.succeeded()) {
-    throw Refusal("Riccati's equation: expected a positive definite cost of the inputs");
+    throw Refusal("Riccati equation: the input weights r must be positive definite (all > 0)");
   }
   return factors;
 }

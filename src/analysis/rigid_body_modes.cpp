@@ -10,7 +10,7 @@ Eigen::MatrixXd rigidBodyModes(const Eigen::MatrixXd& stiffness) {
     throw RunFailure(
         "stiffness: it is negative for some motion, so the position is statically unstable: a "
         "small "
-        "deviation grows instead of vibrating");
+        "displacement grows instead of vibrating");
   }
   const ScaledForm scaled = unitDiagonal(stiffness);
   const SymmetricModes<double> solver = symmetricModes(scaled.form);

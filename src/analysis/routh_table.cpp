@@ -51,8 +51,8 @@ std::string replaceZeroRow(SymbolicRow& row, const SymbolicRow& above, int degre
                   SymbolicQuotient(SymbolicPolynomial(Rational(degree - 2 * j))));
   }
   return fmt::format(
-      "all zero: the row above is a factor, {}, with roots in pairs s, -s; its derivative {} takes "
-      "the row's place",
+      "all zero: the row above is a factor, {}, with roots in pairs s, -s; its derivative {} "
+      "replaces the row",
       polynomialOf(above, degree, symbol), polynomialOf(row, degree - 1, symbol));
 }
 
@@ -63,7 +63,7 @@ std::string fillSymbolicZeros(SymbolicRow& row, std::size_t m) {
     row[j] = m % 2 == 0 ? row[j] + row[j + m] : row[j] - row[j + m];
   }
   return fmt::format(
-      "begins with {}: {} itself, {} to the left, which changes no count, in place of a small "
+      "begins with {}: {} itself, {} to the left, which changes no count, instead of a small "
       "epsilon",
       m == 1 ? "a zero" : fmt::format("{} zeros", m), m % 2 == 0 ? "plus" : "minus",
       m == 1 ? "one place" : fmt::format("{} places", m));
@@ -85,7 +85,7 @@ RouthTable routhTable(const std::vector<SymbolicPolynomial>& coefficients,
   const int degree = static_cast<int>(reduced.size()) - 1;
   RouthTable table;
   table.zero_roots = zeros;
-  table.rows.push_back({degree, upper, turned ? "every sign turned" : ""});
+  table.rows.push_back({degree, upper, turned ? "all signs changed" : ""});
   for (int power = degree - 1; power >= 0; --power) {
     const auto zero = [](const SymbolicQuotient& entry) { return entry.zero(); };
     const auto leading = static_cast<std::size_t>(

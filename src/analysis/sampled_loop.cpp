@@ -58,14 +58,14 @@ void checkShapes(const LoopPlant& plant, const LoopController& c) {
       law.c.rows() != outputs || law.c.cols() != states || law.d.rows() != outputs ||
       law.d.cols() != measured || !within(c.measures, plant.c.rows()) ||
       !within(c.acts_on, plant.b.cols())) {
-    throw std::logic_error("sampled loop: a law does not fit what it measures and acts on");
+    throw std::logic_error("sampled loop: the size of a control law does not match its signals");
   }
 }
 
 void checkLoop(const LoopPlant& plant, const std::vector<LoopController>& controllers) {
   if (plant.a.cols() != plant.a.rows() || plant.b.rows() != plant.a.rows() ||
       plant.c.cols() != plant.a.rows()) {
-    throw std::logic_error("sampled loop: the matrices of the plant do not fit together");
+    throw std::logic_error("sampled loop: the sizes of the plant's matrices do not match");
   }
   if (controllers.empty()) {
     throw Refusal("sampled loop: expected at least one controller, found none");
@@ -75,8 +75,8 @@ void checkLoop(const LoopPlant& plant, const std::vector<LoopController>& contro
     checkShapes(plant, c);
     if ((c.delay + c.sensor_delay) * c.rate > kMostLoopStates) {
       throw RunFailure(fmt::format(
-          "controller {}: a delay of {} s is more than {} samples: such a loop is not judged",
-          c.name, c.delay + c.sensor_delay, kMostLoopStates));
+          "controller {}: the delay must be at most {} samples for an analysis, found {:g}", c.name,
+          kMostLoopStates, (c.delay + c.sensor_delay) * c.rate));
     }
   }
 }
@@ -181,8 +181,8 @@ class LoopWalk {
     }
     if (states_ > kMostLoopStates) {
       throw RunFailure(
-          fmt::format("sampled loop: {} controllers, their delays and what they act on are {} "
-                      "states, of which at most {} are judged",
+          fmt::format("sampled loop: must have at most {2} states for an analysis, found {1} of "
+                      "{0} controllers, their delays and plants",
                       count, states_, kMostLoopStates));
     }
     columns_ = states_;

@@ -53,7 +53,7 @@ RouthResult exactRouth(const MatrixXd& transition, int standing) {
 std::vector<Complex> sortedEigenvalues(const MatrixXd& a) {
   const EigenPairs solver = eigenvalues(a, kMaxIterationsPerEigenvalue * a.rows());
   if (!solver.succeeded) {
-    throw RunFailure("sampled loop: its eigenvalues cannot be computed");
+    throw RunFailure("sampled loop: the eigenvalues cannot be computed");
   }
   const Eigen::VectorXcd& values = solver.values;
   std::vector<Complex> roots(values.data(), values.data() + values.size());
@@ -99,7 +99,8 @@ Sides sides(const MatrixXd& a, std::vector<Complex> eigenvalues, int standing, d
 SampledStability delayedStability(const DelayedMatrix& matrix, int standing) {
   const std::optional<LeadingRoots> leading = leadingRoots(matrix);
   if (!leading) {
-    throw RunFailure("sampled loop: its eigenvalues cannot be separated, with delays so long");
+    throw RunFailure(
+        "sampled loop: the eigenvalues cannot be separated, because the delays are too long");
   }
   SampledStability result;
   result.eigenvalues = leading->roots;
@@ -123,7 +124,7 @@ SampledStability delayedStability(const DelayedMatrix& matrix, int standing) {
 SampledStability sampledStability(const SampledLoop& loop) {
   SampledStability result;
   if (!loop.transition.allFinite()) {
-    throw RunFailure("sampled loop: its transition is beyond the range of double");
+    throw RunFailure("sampled loop: the transition matrix exceeds the range of a double");
   }
   if (loop.transition.size() == 0) {
     result.verdict = Verdict::kAsymptoticallyStable;

@@ -164,7 +164,9 @@ ReducedMargins UnreducedMargins::at(const VectorXd& q, double speed) const {
                               std::numeric_limits<double>::infinity());
   const auto rest = unreducedEquilibriumNear(*rotor_, rotor_->shapes * amplitudes, speed);
   if (!rest) {
-    throw RunFailure("a rotor whose reduction rests in its films rests nowhere itself");
+    throw RunFailure(
+        "the full-order rotor has no equilibrium in its oil films, although the reduced-order one "
+        "has");
   }
   margins.unreduced =
       marginsOf(linearizationAt(*rotor_, *rest, speed), std::max(highest_speed_, std::fabs(speed)));

@@ -28,10 +28,10 @@ Drive::Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
              std::int64_t start_nanoseconds, ExclusionBands avoid)
     : avoid_(std::move(avoid)) {
   if (!(std::abs(speed) <= kLargestSpeed)) {
-    throw Refusal(fmt::format("drive: speed must lie within +-1e6 rad/s, found {}", speed));
+    throw Refusal(fmt::format("drive: speed must be within +-1e6 rad/s, found {}", speed));
   }
   if (!(std::abs(angle) <= 1.0e15)) {
-    throw Refusal(fmt::format("drive: angle must lie within +-1e15 rad, found {}", angle));
+    throw Refusal(fmt::format("drive: angle must be within +-1e15 rad, found {}", angle));
   }
 
   const auto append = [this](const SpeedSegment& motion, double target) {
@@ -56,15 +56,16 @@ Drive::Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
     const double allowed =
         avoid_.allowed(move.speed, move.max_acceleration, move.max_jerk, kNoneBefore);
     if (allowed != move.speed) {
-      throw Refusal(
-          fmt::format("drive: profile move {}: speed must not lie in a band to avoid, found {}, "
-                      "nearest edge {}",
-                      i + 1, move.speed, allowed));
+      throw Refusal(fmt::format(
+          "drive: profile move {}: speed must be outside the barred speed ranges, found {}, "
+          "nearest edge {}",
+          i + 1, move.speed, allowed));
     }
     const BandedChange plan = avoid_.plan(speed, 0.0, move);
     if (runsTooFast(plan)) {
       throw Refusal(fmt::format(
-          "drive: profile move {}: would run faster than 1e6 rad/s past a band to avoid", i + 1));
+          "drive: profile move {}: must not exceed 1e6 rad/s when crossing a barred speed range",
+          i + 1));
     }
     total += plan.duration + move.dwell;
     if (!(total <= kLongestDuration)) {

@@ -46,10 +46,10 @@ SignalFault faultOf(const InputSignal& signal) {
     return {"amplitude", "must be finite", 0};
   }
   if (!(std::fabs(signal.frequency) <= kLargestFrequency)) {
-    return {"frequency", "must lie within +-1e6 rad/s", 0};
+    return {"frequency", "must be within +-1e6 rad/s", 0};
   }
   if (!(std::fabs(signal.phase) <= kLargestPhase)) {
-    return {"phase", "must lie within +-1e15 rad", 0};
+    return {"phase", "must be within +-1e15 rad", 0};
   }
   if (!(signal.pole >= 0.0 && std::isfinite(signal.pole))) {
     return {"pole", "must be finite and not negative", 0};
@@ -58,11 +58,11 @@ SignalFault faultOf(const InputSignal& signal) {
     return {nullptr, nullptr, 0};
   }
   if (signal.instants.empty() || signal.values.size() != signal.instants.size()) {
-    return {"table", "must have a value at each of one or more instants", 0};
+    return {"table", "must have at least one instant, and a value at each", 0};
   }
   for (std::size_t row = 0; row < signal.instants.size(); ++row) {
     if (row > 0 && signal.instants[row] <= signal.instants[row - 1]) {
-      return {"time", "must grow from row to row", row};
+      return {"time", "must increase from row to row", row};
     }
     if (!std::isfinite(signal.values[row])) {
       return {"value", "must be finite", row};

@@ -35,7 +35,7 @@ double missingSpeed(double speed, double acceleration, double max_jerk, double t
 std::optional<MoveFault> faultOf(const SpeedMove& move) noexcept {
   // Each test is written so that NaN fails it.
   if (!(std::abs(move.speed) <= kLargestSpeed)) {
-    return MoveFault{"speed must lie within +-1e6 rad/s", move.speed};
+    return MoveFault{"speed must be within +-1e6 rad/s", move.speed};
   }
   if (!(move.max_acceleration > 0.0 && std::isfinite(move.max_acceleration))) {
     return MoveFault{"max_acceleration must be positive and finite, in rad/s^2",
@@ -46,7 +46,7 @@ std::optional<MoveFault> faultOf(const SpeedMove& move) noexcept {
                      move.max_jerk};
   }
   if (!(move.dwell >= 0.0 && move.dwell <= kLongestDuration)) {
-    return MoveFault{"dwell must lie within 0 and 1e9 s", move.dwell};
+    return MoveFault{"dwell must be from 0 to 1e9 s", move.dwell};
   }
   return std::nullopt;
 }

@@ -53,14 +53,14 @@ inline ParameterInfo trackingTimeInfo() {
   return {"tracking_time",
           "s",
           Range::kNotNegative,
-          "in which back_calculation unwinds the integral; 0: kp/ki",
+          "time constant of back_calculation; 0: kp/ki",
           0.0,
           ""};
 }
 
 inline SettingInfo antiWindupSetting() {
   SettingInfo info{"anti_windup", SettingKind::kChoice, "",
-                   "what keeps the integral from growing while the output is at its limit"};
+                   "anti-windup of the integral while the output is at its limit"};
   info.choices = {"back_calculation", "clamping", "none"};
   return info;
 }

@@ -37,10 +37,10 @@ const std::vector<ControllerInfo>& builtInControllers() {
 /// Why a controller of the source cannot join `list`; "" if it can.
 std::string objection(const ControllerInfo& info, const std::vector<ControllerInfo>& list) {
   if (info.name.empty() || !info.make) {
-    return "controller '" + info.name + "' is left out: it has no name or nothing to make it";
+    return "controller '" + info.name + "' is not registered: it has no name or no factory";
   }
   if (find(list, info.name) != nullptr) {
-    return "controller '" + info.name + "' is left out: there is a controller of that name already";
+    return "controller '" + info.name + "' is not registered: duplicate name";
   }
   return "";
 }

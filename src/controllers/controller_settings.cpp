@@ -22,15 +22,15 @@ void requireSize(const std::string& name, const MatrixXd& matrix, Index rows, In
 
 void requireAxes(const ControllerPlan& plan, const std::string& name) {
   if (plan.measured != plan.outputs) {
-    throw SetupError(name, fmt::format("acts axis by axis: as many must be measured as acted on, "
-                                       "found {} measured, {} acted on",
+    throw SetupError(name, fmt::format("acts axis by axis: must have as many measured signals as "
+                                       "outputs, found {} measured, {} acted on",
                                        plan.measured, plan.outputs));
   }
 }
 
 SettingInfo setpointSetting() {
-  return {"setpoint", SettingKind::kMatrix, "of what is measured",
-          "a row, a number for each of what is measured; 0 if not given"};
+  return {"setpoint", SettingKind::kMatrix, "of the measured signals",
+          "a row with a number for each measured signal; default 0"};
 }
 
 Eigen::VectorXd setpointOf(const Settings& settings, const ControllerPlan& plan) {
@@ -39,7 +39,7 @@ Eigen::VectorXd setpointOf(const Settings& settings, const ControllerPlan& plan)
   if (given == nullptr) {
     return Eigen::VectorXd::Zero(measured);
   }
-  requireSize("setpoint", *given, 1, measured, "a number for each of what is measured");
+  requireSize("setpoint", *given, 1, measured, "a number for each measured signal");
   return given->row(0).transpose();
 }
 

@@ -145,18 +145,17 @@ std::unique_ptr<Controller> makeExternal(const ParameterValues& values, const Se
 ControllerInfo externalInfo() {
   ControllerInfo info;
   info.name = "external";
-  info.summary = "in another process, by ROS or LCM: acts live only";
+  info.summary = "in another process, by ROS or LCM: acts only live";
   info.parameters = {
       {"timeout", "s", Range::kPositive,
-       "without an answer, after which on_timeout holds: of wall time in lockstep, of "
-       "simulated time else",
+       "without an answer before on_timeout applies: wall time in lockstep, else simulated time",
        std::nullopt, ""}};
   SettingInfo mode{"mode", SettingKind::kChoice, "",
                    "simulated time waits for each answer, or the newest command acts"};
   mode.choices = {"lockstep", "free_running"};
-  SettingInfo on_timeout{"on_timeout", SettingKind::kChoice, "",
-                         "when no answer has come: it gives what it gave last, or 0, or the "
-                         "systems that it acts on stop"};
+  SettingInfo on_timeout{
+      "on_timeout", SettingKind::kChoice, "",
+      "without an answer: keep the last output, output 0, or stop the systems that it acts on"};
   on_timeout.choices = {"hold", "zero", "stop"};
   info.settings = {mode, on_timeout};
   info.make = makeExternal;

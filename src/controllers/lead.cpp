@@ -39,12 +39,12 @@ ControllerInfo leadInfo() {
   info.name = "lead";
   info.summary = "lead or lag, axis by axis";
   info.parameters = {
-      {"gain", "output/measured", Range::kAny, "of what does not change", std::nullopt, ""},
+      {"gain", "output/measured", Range::kAny, "static gain", std::nullopt, ""},
       {"zero", "rad/s", Range::kPositive, "below the pole it leads", std::nullopt, ""},
       {"pole", "rad/s", Range::kPositive, "below the zero it lags", std::nullopt, ""},
       {"prewarp", "rad/s", Range::kNotNegative,
-       "frequency at which the samples' law is that of continuous time; 0: none", 0.0, ""},
-      {"setpoint", "measured", Range::kAny, "of what is measured", 0.0, ""},
+       "frequency at which the discrete law equals the continuous one; 0: none", 0.0, ""},
+      {"setpoint", "measured", Range::kAny, "of the measured signal", 0.0, ""},
   };
   info.make = makeLead;
   return info;

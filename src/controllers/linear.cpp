@@ -28,31 +28,30 @@ DiscreteStateSpace byMatrices(const Settings& settings, const ControllerPlan& pl
                         const char* why) {
     const MatrixXd* given = givenMatrix(settings, name);
     if (given == nullptr) {
-      throw SetupError(name, "missing beside a: a, b and c are given together");
+      throw SetupError(name, "missing; a, b and c must be given together");
     }
     requireSize(name, *given, rows, columns, why);
     place = *given;
   };
   if (a != nullptr) {
-    take("a", law.a, states, states, "a row and a column a state");
-    take("b", law.b, states, measured, "a row a state, a column for each of what is measured");
-    take("c", law.c, outputs, states, "a row an output, a column a state");
+    take("a", law.a, states, states, "a row and a column per state");
+    take("b", law.b, states, measured, "a row per state, a column per measured signal");
+    take("c", law.c, outputs, states, "a row per output, a column per state");
   } else {
     for (const char* name : {"b", "c"}) {
       if (givenMatrix(settings, name) != nullptr) {
         throw SetupError("a",
-                         fmt::format("missing beside {}: a, b and c are given together", name));
+                         fmt::format("missing; a, b and c must be given together, found {}", name));
       }
     }
   }
   if (const MatrixXd* d = givenMatrix(settings, "d"); d != nullptr) {
-    requireSize("d", *d, outputs, measured,
-                "a row an output, a column for each of what is measured");
+    requireSize("d", *d, outputs, measured, "a row per output, a column per measured signal");
     law.d = *d;
   } else if (a == nullptr) {
-    throw SetupError("d",
-                     "missing; a linear law is given by d, by a, b, c and d, or by numerator "
-                     "and denominator");
+    throw SetupError(
+        "d",
+        "missing; a linear control law needs d, or a, b, c and d, or numerator and denominator");
   }
   return law;
 }
@@ -60,13 +59,13 @@ DiscreteStateSpace byMatrices(const Settings& settings, const ControllerPlan& pl
 DiscreteStateSpace byTransferFunction(const Settings& settings, const ControllerPlan& plan) {
   for (const char* name : {"a", "b", "c", "d"}) {
     if (givenMatrix(settings, name) != nullptr) {
-      throw SetupError(name, "must not be given beside numerator and denominator");
+      throw SetupError(name, "must not be given with numerator and denominator");
     }
   }
   const auto row = [&](const char* name) {
     const MatrixXd* given = givenMatrix(settings, name);
     if (given == nullptr) {
-      throw SetupError(name, "missing; numerator and denominator are given together");
+      throw SetupError(name, "missing; numerator and denominator must be given together");
     }
     requireSize(name, *given, 1, given->cols(), "coefficients of falling powers of z");
     return Eigen::VectorXd(given->row(0).transpose());
@@ -74,13 +73,14 @@ DiscreteStateSpace byTransferFunction(const Settings& settings, const Controller
   const Eigen::VectorXd numerator = row("numerator");
   const Eigen::VectorXd denominator = row("denominator");
   if (denominator[0] == 0.0) {
-    throw SetupError("denominator", "must begin with a number that is not 0, found 0");
+    throw SetupError("denominator", "the first number must not be 0, found 0");
   }
   if (numerator.size() > denominator.size()) {
-    throw SetupError("numerator",
-                     fmt::format("must have up to {} coefficients, as the denominator has: what "
-                                 "comes later cannot be known, found {}",
-                                 denominator.size(), numerator.size()));
+    throw SetupError(
+        "numerator",
+        fmt::format(
+            "must have at most {} coefficients, as the denominator has (causality), found {}",
+            denominator.size(), numerator.size()));
   }
   requireAxes(plan, "numerator");
   return onEachAxis(discreteTransferFunction(numerator, denominator),
@@ -105,14 +105,14 @@ ControllerInfo linearInfo() {
   ControllerInfo info;
   info.name = "linear";
   info.summary =
-      "any linear law in samples, by matrices or axis by axis by a transfer function in z";
+      "any discrete linear control law, by matrices or axis by axis by a transfer function in z";
   info.settings = {
-      matrix("a", "-", "of its states to the next; none if not given"),
-      matrix("b", "state/measured", "of what is measured to the next states"),
-      matrix("c", "output/state", "of its states to the outputs"),
-      matrix("d", "output/measured", "of what is measured to the outputs; 0 if not given beside a"),
+      matrix("a", "-", "from its states to the next ones; default none"),
+      matrix("b", "state/measured", "from the measured signals to the next states"),
+      matrix("c", "output/state", "from its states to the outputs"),
+      matrix("d", "output/measured", "from the measured signals to the outputs; default 0 with a"),
       matrix("numerator", "output/measured", "a row of coefficients of falling powers of z"),
-      matrix("denominator", "-", "likewise, as many or more"),
+      matrix("denominator", "-", "coefficients likewise, as many or more"),
       setpointSetting(),
   };
   info.make = makeLinear;

@@ -94,9 +94,9 @@ std::unique_ptr<Controller> makeLqg(const ParameterValues&, const Settings& sett
   const double period = 1.0 / plan.rate;
   LqgGains gains;
   gains.feedback = regulatorGain(settings, plant, plan.rate);
-  const MatrixXd process = weightOf(settings, "process_noise", n, "a number a state");
+  const MatrixXd process = weightOf(settings, "process_noise", n, "a number per state");
   const MatrixXd sensor =
-      weightOf(settings, "sensor_noise", plant.c.rows(), "a number for each of what is measured");
+      weightOf(settings, "sensor_noise", plant.c.rows(), "a number per measured signal");
   const SampledPlant sampled = sampledPlant(
       plant.a, plant.b, {MatrixXd::Zero(n, n), MatrixXd::Identity(inputs, inputs)}, period);
   gains.a = sampled.a;
@@ -113,10 +113,10 @@ std::unique_ptr<Controller> makeLqg(const ParameterValues&, const Settings& sett
 ControllerInfo lqgInfo() {
   ControllerInfo info;
   info.name = "lqg";
-  info.summary = "linear-quadratic regulator of states that a Kalman filter estimates";
+  info.summary = "linear-quadratic regulator with states estimated by a Kalman filter";
   info.settings = regulatorSettings();
   SettingInfo process{"process_noise", SettingKind::kMatrix, "state^2/s",
-                      "density of the noise that drives each state's rate: a row, or a symmetric "
+                      "process-noise density of each state's rate: a row, or a symmetric "
                       "matrix"};
   SettingInfo sensor{"sensor_noise", SettingKind::kMatrix, "measured^2",
                      "variance of each sample: a row, or a symmetric matrix"};

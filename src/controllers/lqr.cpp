@@ -25,10 +25,9 @@ std::unique_ptr<Controller> makeLqr(const ParameterValues&, const Settings& sett
   const LinearPlant& plant = plantOf(plan);
   const PivotedQr measured(plant.c);
   if (plant.c.rows() != plant.a.rows() || measured.rank() < plant.c.cols()) {
-    throw SetupError("q",
-                     fmt::format("weighs all {} states: an lqr must measure each of them, found "
-                                 "{} measured that tell {}; lqg estimates the rest",
-                                 plant.a.rows(), plant.c.rows(), measured.rank()));
+    throw SetupError("q", fmt::format("an lqr must measure all {} states, found {} signals with {} "
+                                      "states; lqg estimates the others",
+                                      plant.a.rows(), plant.c.rows(), measured.rank()));
   }
   const MatrixXd gain = regulatorGain(settings, plant, plan.rate);
   return std::make_unique<StateSpaceController>(staticLaw(-gain * Lu(plant.c).inverse()),
@@ -40,7 +39,7 @@ std::unique_ptr<Controller> makeLqr(const ParameterValues&, const Settings& sett
 ControllerInfo lqrInfo() {
   ControllerInfo info;
   info.name = "lqr";
-  info.summary = "linear-quadratic regulator: the state feedback of least cost";
+  info.summary = "linear-quadratic regulator: state feedback of minimum cost";
   info.settings = regulatorSettings();
   info.settings.push_back(setpointSetting());
   info.make = makeLqr;

@@ -172,8 +172,8 @@ Notch notchOf(const ParameterValues& values, const Settings& settings, const Con
   const bool pairs = settings.choices.at("notch_axes") == "pairs";
   if (pairs && plan.measured % 2 != 0) {
     throw SetupError("notch_axes",
-                     fmt::format("pairs needs probes two by two, the second a quarter "
-                                 "turn on, found {} measured; single takes each by "
+                     fmt::format("pairs must have probes in pairs, the second 90 degrees ahead, "
+                                 "found {} measured; single treats each by "
                                  "itself",
                                  plan.measured));
   }
@@ -181,7 +181,7 @@ Notch notchOf(const ParameterValues& values, const Settings& settings, const Con
   if (phases.empty()) {
     phases = SpeedTable({values.at("notch_phase")});
   } else if (values.at("notch_phase") != 0.0) {
-    throw SetupError("notch_phase", "must not be given beside notch_phases");
+    throw SetupError("notch_phase", "must not be given with notch_phases");
   }
   return {rate, std::move(phases), values.at("notch_hold"), pairs};
 }
@@ -190,20 +190,19 @@ Notch notchOf(const ParameterValues& values, const Settings& settings, const Con
 
 ControllerInfo withNotch(ControllerInfo info) {
   info.parameters.push_back({"notch_rate", "1/s", Range::kNotNegative,
-                             "at which a notch learns what turns with the shaft; 0: no notch", 0.0,
-                             ""});
+                             "rate at which a notch adapts to the synchronous motion; 0: no notch",
+                             0.0, ""});
   info.parameters.push_back({"notch_phase", "rad", Range::kAny,
                              "of the notch, best - arg S at the shaft's speed", 0.0, ""});
-  info.parameters.push_back(
-      {"notch_hold", "-", Range::kNotNegative,
-       "it learns while the speed changes by less than this part of itself in "
-       "1/notch_rate",
-       0.1, ""});
+  info.parameters.push_back({"notch_hold", "-", Range::kNotNegative,
+                             "it adapts while the relative speed change is less than this per "
+                             "1/notch_rate",
+                             0.1, ""});
   info.settings.push_back(
-      speedTableSetting("notch_phases", "in place of notch_phase, over the shaft's speed",
+      speedTableSetting("notch_phases", "replaces notch_phase, over the shaft's speed",
                         {{"phase", "rad", Range::kAny, std::numeric_limits<double>::quiet_NaN()}}));
   SettingInfo axes{"notch_axes", SettingKind::kChoice, "",
-                   "what is measured is pairs of probes, the second a quarter turn on, or each by "
+                   "measured signals are pairs of probes, the second 90 degrees ahead, or each by "
                    "itself"};
   axes.choices = {"pairs", "single"};
   info.settings.push_back(axes);

@@ -145,7 +145,7 @@ SpeedTable gainsOf(const ParameterValues& values, const Settings& settings) {
   SpeedTable gains(settings, "gains", {"kp", "ki", "kd"});
   for (const char* name : {"kp", "ki", "kd"}) {
     if (!gains.empty() && values.at(name) != 0.0) {
-      throw SetupError(name, "must not be given beside gains");
+      throw SetupError(name, "must not be given with gains");
     }
   }
   return gains.empty() ? SpeedTable({values.at("kp"), values.at("ki"), values.at("kd")}) : gains;
@@ -170,11 +170,11 @@ ControllerInfo pidInfo() {
       {"kd", "output s/measured", Range::kAny, "derivative gain", 0.0, ""},
       {"derivative_time", "s", Range::kNotNegative,
        "time constant of the derivative's filter; 0: backward difference", 0.0, ""},
-      {"setpoint", "measured", Range::kAny, "of what is measured", 0.0, ""},
+      {"setpoint", "measured", Range::kAny, "of the measured signal", 0.0, ""},
       trackingTimeInfo(),
   };
   info.settings = {antiWindupSetting(),
-                   speedTableSetting("gains", "in place of kp, ki and kd, over the shaft's speed",
+                   speedTableSetting("gains", "replaces kp, ki and kd, over the shaft's speed",
                                      {{"kp", "output/measured", Range::kAny, 0.0},
                                       {"ki", "output/measured/s", Range::kAny, 0.0},
                                       {"kd", "output s/measured", Range::kAny, 0.0}})};

@@ -12,13 +12,13 @@ using Eigen::MatrixXd;
 
 std::vector<SettingInfo> regulatorSettings() {
   SettingInfo q{"q", SettingKind::kMatrix, "1/state^2",
-                "what states cost: a row, a number a state, coordinates before their rates, or a "
-                "symmetric matrix"};
-  SettingInfo r{"r", SettingKind::kMatrix, "1/output^2", "what outputs cost, likewise"};
+                "weights of the states: a row with a number per state, coordinates before their "
+                "rates, or a symmetric matrix"};
+  SettingInfo r{"r", SettingKind::kMatrix, "1/output^2", "weights of the outputs, likewise"};
   q.required = true;
   r.required = true;
   SettingInfo cost{"cost", SettingKind::kChoice, "",
-                   "of outputs held from sample to sample, or of outputs that follow at once"};
+                   "design for zero-order-hold outputs, or for continuous outputs"};
   cost.choices = {"sampled", "continuous"};
   return {q, r, cost};
 }
@@ -26,9 +26,8 @@ std::vector<SettingInfo> regulatorSettings() {
 const LinearPlant& plantOf(const ControllerPlan& plan) {
   if (!plan.plant) {
     throw SetupError("q",
-                     "weighs the states of a linear plant, and there is none here: what it acts "
-                     "on has no small motions about where it starts; state_feedback takes a gain "
-                     "as it is");
+                     "needs a linear plant: the systems it acts on cannot be linearized about "
+                     "their start; use state_feedback with a given gain");
   }
   return *plan.plant;
 }
@@ -46,8 +45,7 @@ MatrixXd weightOf(const Settings& settings, const std::string& name, Index n,
   }
   Index i = 0;
   if (const double least = weight.diagonal().minCoeff(&i); !(least >= 0.0)) {
-    throw SetupError(name,
-                     fmt::format("must be >= 0 in its diagonal, found {} in place {}", least, i));
+    throw SetupError(name, fmt::format("diagonal must be >= 0, found {} at index {}", least, i));
   }
   return 0.5 * (weight + weight.transpose());
 }
@@ -61,10 +59,10 @@ MatrixXd foundFor(const std::string& setting, const std::function<MatrixXd()>& f
 }
 
 MatrixXd regulatorGain(const Settings& settings, const LinearPlant& plant, double rate) {
-  const QuadraticCost cost{
-      weightOf(settings, "q", plant.a.rows(), "a number a state, or a row and a column a state"),
-      weightOf(settings, "r", plant.b.cols(),
-               "a number an output, or a row and a column an output")};
+  const QuadraticCost cost{weightOf(settings, "q", plant.a.rows(),
+                                    "a number per state, or a row and a column per state"),
+                           weightOf(settings, "r", plant.b.cols(),
+                                    "a number per output, or a row and a column per output")};
   return foundFor("q", [&] {
     return settings.choices.at("cost") == "sampled"
                ? sampledRegulator(plant.a, plant.b, cost, 1.0 / rate).gain

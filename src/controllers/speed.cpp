@@ -276,8 +276,8 @@ std::vector<SpeedBand> upwardBands(const ExclusionBands& avoid, double run_up) {
 /// What does not hang on bands.
 void check(const ParameterValues& values, const ControllerPlan& plan) {
   if (plan.measured != 1 || plan.outputs != 1) {
-    throw SetupError("speed", fmt::format("is of one shaft: its speed is measured, a torque on it "
-                                          "acted on, found {} measured, {} acted on",
+    throw SetupError("speed", fmt::format("must measure the speed of one shaft and act on it with "
+                                          "a torque, found {} measured, {} acted on",
                                           plan.measured, plan.outputs));
   }
   if (!(values.at("reserve") < 1.0)) {
@@ -294,15 +294,16 @@ void check(const ParameterValues& values, const ControllerPlan& plan) {
 void checkSpeed(const SpeedPlanner& planner, double speed, const std::string& for_what) {
   const double allowed = planner.allowed(speed, kNaN);
   if (allowed != speed) {
-    throw SetupError("speed", fmt::format("must lie outside of the bands to avoid{}, found {}; "
-                                          "nearest edge {:g}",
-                                          for_what, speed, allowed));
+    throw SetupError(
+        "speed",
+        fmt::format("must be outside the barred speed ranges{}, found {}; nearest edge {:g}",
+                    for_what, speed, allowed));
   }
   SpeedPlan set_points = planner.staying(0.0);
   if (!planner.plan(0.0, 0.0, speed, set_points)) {
     throw SetupError("speed",
-                     fmt::format("must be one that the motor reaches, with what it takes to cross "
-                                 "the bands to avoid{}: up to {:.6g} rad/s, found {}",
+                     fmt::format("must be reachable by the motor with the torque needed across the "
+                                 "barred speed ranges{}: up to {:.6g} rad/s, found {}",
                                  for_what, planner.highest(), speed));
   }
 }
@@ -337,45 +338,45 @@ SpeedWay speedWayOf(const ParameterValues& values, const Settings& settings,
 ControllerInfo speedInfo() {
   ControllerInfo info;
   info.name = "speed";
-  info.summary = "speed of a shaft by its motor's torque, along a planned set-point";
+  info.summary = "speed control of a shaft by its motor's torque, along a planned set-point";
   info.parameters = {
-      {"speed", "rad/s", Range::kAny, "to which it brings the shaft", std::nullopt, ""},
+      {"speed", "rad/s", Range::kAny, "target speed of the shaft", std::nullopt, ""},
       {"max_acceleration", "rad/s^2", Range::kPositive, "of the set-point", std::nullopt, ""},
       {"max_jerk", "rad/s^3", Range::kPositive, "of the set-point", std::nullopt, ""},
-      {"inertia", "kg m^2", Range::kPositive, "that the motor accelerates", std::nullopt, ""},
-      {"drag", "N m s/rad", Range::kNotNegative, "that the motor has to overcome", 0.0, ""},
+      {"inertia", "kg m^2", Range::kPositive, "accelerated by the motor", std::nullopt, ""},
+      {"drag", "N m s/rad", Range::kNotNegative, "viscous drag on the shaft", 0.0, ""},
       {"reserve", "-", Range::kNotNegative,
-       "share of the motor's torque that the set-point leaves alone, < 1", 0.1, ""},
-      {"kp", "N m s/rad", Range::kNotNegative, "gain on what the speed is off its set-point", 0.0,
-       ""},
+       "fraction of the motor's torque kept in reserve by the set-point, < 1", 0.1, ""},
+      {"kp", "N m s/rad", Range::kNotNegative, "proportional gain on the speed error", 0.0, ""},
       {"ki", "N m/rad", Range::kNotNegative, "integral gain", 0.0, ""},
       trackingTimeInfo(),
   };
   info.parameters.push_back({"retry_acceleration", "rad/s^2", Range::kPositive,
-                             "of the set-point, once a resonance has captured the shaft",
-                             std::nullopt, "max_acceleration"});
-  info.parameters.push_back({"tries", "-", Range::kCount,
-                             "of a band that captures the shaft, before it stays below", 3.0, ""});
-  info.parameters.push_back({"margin", "-", Range::kNotNegative,
-                             "of a critical speed, that its band reaches on both sides; 0: what "
-                             "API 617 asks for",
-                             0.0, ""});
+                             "of the set-point after a resonance capture", std::nullopt,
+                             "max_acceleration"});
+  info.parameters.push_back(
+      {"tries", "-", Range::kCount,
+       "attempts to cross a barred range after a capture, before it stays below", 3.0, ""});
+  info.parameters.push_back(
+      {"margin", "-", Range::kNotNegative,
+       "half-width of a barred range, relative to the critical speed; 0: as API 617 requires", 0.0,
+       ""});
   SettingInfo critical{"critical_speeds", SettingKind::kChoice, "",
-                       "it avoids bands about the critical speeds of what it turns, too"};
+                       "also bar ranges about the critical speeds of the driven systems"};
   critical.choices = {"false", "true"};
   SettingInfo weak{"weak_motor", SettingKind::kChoice, "",
-                   "a band that its motor is known not to bring the shaft through: stay below, or "
-                   "try all the same"};
+                   "a barred range that needs more than the motor's torque: stay below, or try"};
   weak.choices = {"refuse", "try"};
-  SettingInfo motor{"motor", SettingKind::kTable, "",
-                    "the most torque it gives, either way, over the speed: straight lines between "
-                    "rows, constant beyond"};
+  SettingInfo motor{
+      "motor", SettingKind::kTable, "",
+      "largest torque in both directions over the speed: linear between rows, constant outside"};
   motor.required = true;
   motor.columns = {{"speed", "rad/s", Range::kNotNegative, kRequired},
                    {"torque", "N m", Range::kNotNegative, kRequired}};
-  SettingInfo avoid{"avoid", SettingKind::kTable, "",
-                    "bands of speed that it passes at the largest acceleration and does not stay "
-                    "in"};
+  SettingInfo avoid{
+      "avoid", SettingKind::kTable, "",
+      "barred speed ranges that it crosses at the largest acceleration and does not stay "
+      "in"};
   avoid.columns = {{"from", "rad/s", Range::kPositive, kRequired},
                    {"to", "rad/s", Range::kPositive, kRequired}};
   info.settings = {antiWindupSetting(), motor, avoid, critical, weak};

@@ -13,7 +13,7 @@ std::unique_ptr<Controller> makeStateFeedback(const ParameterValues&, const Sett
   const Eigen::MatrixXd& gain = settings.matrices.at("gain");
   requireSize("gain", gain, static_cast<Eigen::Index>(plan.outputs),
               static_cast<Eigen::Index>(plan.measured),
-              "a row an output, a column for each of what is measured");
+              "a row per output, a column per measured signal");
   return std::make_unique<StateSpaceController>(staticLaw(-gain), setpointOf(settings, plan));
 }
 
@@ -22,9 +22,9 @@ std::unique_ptr<Controller> makeStateFeedback(const ParameterValues&, const Sett
 ControllerInfo stateFeedbackInfo() {
   ControllerInfo info;
   info.name = "state_feedback";
-  info.summary = "by a gain on all that is measured";
+  info.summary = "state feedback: a gain on the measured signals";
   info.settings = {{"gain", SettingKind::kMatrix, "output/measured",
-                    "a row an output, a column for each of what is measured; it is taken off"},
+                    "a row per output, a column per measured signal; negative feedback"},
                    setpointSetting()};
   info.settings[0].required = true;
   info.make = makeStateFeedback;

@@ -83,12 +83,12 @@ std::unique_ptr<Controller> makeSwingUp(const ParameterValues& values, const Set
                                         const ControllerPlan& plan) {
   const Eigen::MatrixXd& gain = settings.matrices.at("gain");
   if (plan.measured < 2 || plan.outputs != 1) {
-    throw SetupError("gain", fmt::format("must be of one output and of an angle, its rate and what "
-                                         "else is measured, found {} measured, {} acted on",
+    throw SetupError("gain", fmt::format("must measure an angle, its rate and further signals, and "
+                                         "act on one input, found {} measured, {} acted on",
                                          plan.measured, plan.outputs));
   }
   requireSize("gain", gain, 1, static_cast<Eigen::Index>(plan.measured),
-              "a number for each of what is measured");
+              "a number per measured signal");
   if (!(values.at("release") >= values.at("catch"))) {
     throw SetupError("release", fmt::format("must be >= catch = {} rad, found {}",
                                             values.at("catch"), values.at("release")));
@@ -105,24 +105,26 @@ std::unique_ptr<Controller> makeSwingUp(const ParameterValues& values, const Set
 ControllerInfo swingUpInfo() {
   ControllerInfo info;
   info.name = "swing_up";
-  info.summary = "swings a pendulum up by its energy and holds it upright";
+  info.summary = "swings a pendulum up by energy control and stabilizes it upright";
   info.parameters = {
-      {"frequency", "rad/s", Range::kPositive, "of small oscillations where it hangs, angle 0",
+      {"frequency", "rad/s", Range::kPositive, "natural frequency of the hanging pendulum, angle 0",
        std::nullopt, ""},
-      {"drive", "output", Range::kPositive, "largest output while it swings up", std::nullopt, ""},
+      {"drive", "output", Range::kPositive, "largest output during the swing-up", std::nullopt, ""},
       {"energy_gain", "-", Range::kPositive,
-       "the drive is full while the energy, 2 from hanging to upright, is 1/energy_gain off", 10.0,
+       "full drive while the energy error (2 from hanging to upright) is >= 1/energy_gain", 10.0,
        ""},
-      {"catch", "rad", Range::kPositive, "from upright, at which it begins to be held", 0.3, ""},
-      {"release", "rad", Range::kPositive, "from upright, at which it is let go", 0.6, ""},
+      {"catch", "rad", Range::kPositive, "angle from upright at which the feedback starts", 0.3,
+       ""},
+      {"release", "rad", Range::kPositive, "angle from upright at which the feedback stops", 0.6,
+       ""},
   };
   SettingInfo gain{"gain", SettingKind::kMatrix, "output/measured",
-                   "of the state feedback that holds it: a row, for angle, rate, what else is "
+                   "of the state feedback: a row, for angle, rate, further signals "
                    "measured"};
   gain.required = true;
-  SettingInfo by{"by", SettingKind::kChoice, "",
-                 "what the output is: a torque on the pendulum, or acceleration or force along the "
-                 "horizontal at its pivot"};
+  SettingInfo by{
+      "by", SettingKind::kChoice, "",
+      "kind of output: a torque on the pendulum, or horizontal acceleration or force at its pivot"};
   by.choices = {"torque", "pivot"};
   info.settings = {gain, by};
   info.make = makeSwingUp;

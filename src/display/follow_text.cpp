@@ -22,9 +22,9 @@ std::string withDeviation(double value, double deviation) {
 const char* troubleOf(std::uint8_t status) {
   switch (status) {
     case FollowState::SILENT:
-      return "silent";
+      return "no samples";
     case FollowState::REFUSED:
-      return "refused";
+      return "rejected";
     case FollowState::INVALID:
       return "invalid";
     default:
@@ -50,7 +50,7 @@ std::vector<std::string> followLines(const FollowState& follow) {
     }
   }
   if (std::isfinite(follow.mismatch)) {
-    lines.push_back(fmt::format("residuals {:.2f} of those expected", std::sqrt(follow.mismatch)));
+    lines.push_back(fmt::format("residual {:.2f} of that expected", std::sqrt(follow.mismatch)));
   }
   return lines;
 }

@@ -105,7 +105,7 @@ LiveMargin liveMargin(const StabilityMargin::ConstPtr& margin, double since_hear
                       const std::string& silence) {
   LiveMargin live;
   if (!silence.empty()) {
-    live.why_not = "the monitor is silent";
+    live.why_not = "no message from the monitor";
     return live;
   }
   if (!margin) {
@@ -211,7 +211,7 @@ std::optional<MarginScale> marginScale(const LiveMargin& live) {
     if (!(rate > 0.0)) {
       return std::nullopt;
     }
-    return MarginScale{1.0, decrementPlace(live.least_decrement), "does not swing, decays"};
+    return MarginScale{1.0, decrementPlace(live.least_decrement), "overdamped"};
   }
   return MarginScale{
       decrementPlace(decrement), decrementPlace(live.least_decrement),
@@ -220,7 +220,7 @@ std::optional<MarginScale> marginScale(const LiveMargin& live) {
 
 std::string marginText(const LiveMargin& live) {
   if (!live.margin) {
-    return live.why_not.empty() ? "not judged yet" : live.why_not;
+    return live.why_not.empty() ? "not evaluated yet" : live.why_not;
   }
   const std::optional<MarginScale> scale = marginScale(live);
   if (!scale) {

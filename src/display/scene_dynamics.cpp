@@ -45,7 +45,7 @@ bool SceneDynamics::refresh() {
       }
     }
   } catch (const Refusal& error) {
-    ROS_WARN("systems are shown without their models, for the scene is not right:\n%s",
+    ROS_WARN("systems are shown without their models, because the scene is invalid:\n%s",
              error.what());
   }
   return true;

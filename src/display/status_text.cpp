@@ -33,7 +33,7 @@ std::string speedText(double speed) {
 }
 
 std::string vibrationText(double amplitude) {
-  return std::isfinite(amplitude) ? fmt::format("vibration {:.1f} um", amplitude * 1e6) : "";
+  return std::isfinite(amplitude) ? fmt::format("vibration {:.1f} um 0-peak", amplitude * 1e6) : "";
 }
 
 std::string ordersText(const OrderState& orders) {
@@ -52,7 +52,7 @@ std::string ordersText(const OrderState& orders) {
   // Sag, or the load of bearings: no part of the vibration.
   const double aside = std::hypot(orders.mean_x, orders.mean_y);
   if (orders.valid && aside > kAside * first) {
-    parts.push_back(fmt::format("middle {:.1f} um from the axis", aside * 1e6));
+    parts.push_back(fmt::format("mean {:.1f} um from the axis", aside * 1e6));
   }
   if (!orders.line_frequency.empty()) {
     const double line = orders.line_forward[0] + orders.line_backward[0];

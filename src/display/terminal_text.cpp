@@ -76,7 +76,7 @@ std::string heldBackText(const MonitorStatus& monitor) {
                                   [](double left) { return left > 0.0; });
   return held == 0
              ? ""
-             : fmt::format("ALERTS OF {} SYSTEM{} INHIBITED for {:.0f} s yet", held,
+             : fmt::format("ALERTS OF {} SYSTEM{} INHIBITED for another {:.0f} s", held,
                            held == 1 ? "" : "S",
                            *std::max_element(monitor.inhibited.begin(), monitor.inhibited.end()));
 }

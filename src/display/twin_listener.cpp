@@ -123,7 +123,7 @@ bool TwinListener::isOfHolder(const std::string& topic, const std::string& publi
     heard_[publisher] = now;
     return true;
   }
-  others_ = printable(publisher) + " publishes as this twin, too, beside " + printable(holder);
+  others_ = printable(publisher) + " also publishes as this twin, beside " + printable(holder);
   others_at_ = now;
   ROS_WARN_THROTTLE(5.0, "%s: its messages are ignored", others_.c_str());
   return false;

@@ -37,7 +37,7 @@ std::vector<std::string> monitorLines(const MonitorStatus::ConstPtr& monitor,
     return {silence};
   }
   if (!monitor) {
-    return {"monitor: never heard"};
+    return {"monitor: no message received"};
   }
   double oldest = 0.0;
   std::size_t unjudged = 0;
@@ -46,10 +46,10 @@ std::vector<std::string> monitorLines(const MonitorStatus::ConstPtr& monitor,
     unjudged += std::isfinite(age) ? 0 : 1;
   }
   std::vector<std::string> lines = {monitor->paused
-                                        ? "monitor: watches, the simulation is held"
+                                        ? "monitor: active, simulation paused"
                                         : fmt::format("monitor: oldest verdict {:.2g} s", oldest)};
   if (unjudged > 0) {
-    lines.push_back(fmt::format("  {} not judged", unjudged));
+    lines.push_back(fmt::format("  {} not evaluated", unjudged));
   }
   for (std::size_t i = 0; i < std::min(monitor->not_ok.size(), monitor->system.size()); ++i) {
     if (!monitor->not_ok[i].empty()) {
@@ -83,31 +83,31 @@ int LoopHealth::severity(double wall_time) const {
 
 std::vector<std::string> LoopHealth::lines(double wall_time) const {
   if (!loop_) {
-    return {following_ ? "follows its machine" : "loop: never heard"};
+    return {following_ ? "estimates its machine" : "loop: no message received"};
   }
   const LoopStatistics& loop = *loop_;
   std::vector<std::string> lines;
   if (silent(wall_time)) {
-    return {fmt::format("loop: silent for {:.0f} s", wall_time - heard_at_)};
+    return {fmt::format("loop: no message for {:.0f} s", wall_time - heard_at_)};
   }
   lines.push_back(loop.step_size > 0.0 ? fmt::format("loop: {:.0f} steps/s", 1.0 / loop.step_size)
                                        : "loop");
   if (loop.paused) {
-    lines.emplace_back("  held");
+    lines.emplace_back("  paused");
   } else if (std::isfinite(loop.achieved_factor)) {
     lines.push_back(fmt::format("  {:.2f} of real time{}", loop.achieved_factor,
-                                loop.real_time_factor == 0.0 ? " (all it can)"
+                                loop.real_time_factor == 0.0 ? " (as fast as possible)"
                                 : loop.real_time_factor > 0.0
-                                    ? fmt::format(" ({:g} asked)", loop.real_time_factor)
+                                    ? fmt::format(" ({:g} requested)", loop.real_time_factor)
                                     : ""));
   }
-  lines.push_back(fmt::format("  late {}, left out {}", loop.overruns, loop.skipped_steps));
+  lines.push_back(fmt::format("  overruns {}, skipped {}", loop.overruns, loop.skipped_steps));
   lines.push_back(fmt::format("  unpublished {}", loop.dropped_snapshots));
   if (lately_ > 0) {
-    lines.push_back(fmt::format("  {} of them just now", lately_));
+    lines.push_back(fmt::format("  {} of them recently", lately_));
   }
-  lines.push_back(fmt::format("  wakes {} late", shortTime(loop.wakeup_latency_p99)));
-  lines.push_back(fmt::format("  steps in {}", shortTime(loop.execution_p99)));
+  lines.push_back(fmt::format("  wake-up latency {}", shortTime(loop.wakeup_latency_p99)));
+  lines.push_back(fmt::format("  step takes {}", shortTime(loop.execution_p99)));
   return lines;
 }
 
@@ -128,7 +128,7 @@ AlarmList alarmList(const std::vector<Alert>& alerts, std::size_t most) {
                   : alert.severity == Alert::WARNING ? list.warning
                                                      : list.info;
     lines.push_back(fmt::format("{} {} {}{}", severityName(alert.severity), alert.system,
-                                alert.type, alert.acknowledged ? " (seen)" : ""));
+                                alert.type, alert.acknowledged ? " (acknowledged)" : ""));
   }
   if (alerts.size() > shown) {
     list.info.push_back(fmt::format("and {} more", alerts.size() - shown));
@@ -159,7 +159,7 @@ void drawTwin(const std::vector<Alert>& alerts, const LoopHealth& loop,
   stack.add("alarms", wrapped(list.warning), height, severityColor(Alert::WARNING));
   stack.add("alarms", wrapped(list.danger), height, severityColor(Alert::DANGER));
   // What a silent monitor said is not what holds now.
-  stack.add("title", {silence.empty() ? list.title : "alarms not known: " + list.title + " before"},
+  stack.add("title", {silence.empty() ? list.title : "alarms unknown, last: " + list.title},
             1.2 * height, severityColor(alerts, kWordsColor));
 }
 

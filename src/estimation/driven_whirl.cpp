@@ -49,7 +49,7 @@ void DrivenWhirl::setModes(double centre) {
   shapes_ = eigen.vectors;
   inverse_ = ComplexLu(shapes_).inverse();
   if (!inverse_.allFinite()) {
-    throw RunFailure("the rotor has modes without shapes of their own, critically damped ones");
+    throw RunFailure("the rotor has critically damped modes without independent mode shapes");
   }
   slope_ = Eigen::VectorXcd::Zero(middle_.size());
   if (rotor_.speed_dependent && half_band_ > 0.0) {

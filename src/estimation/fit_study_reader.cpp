@@ -85,13 +85,13 @@ class StudyReader {
     SystemSpec system = all.systems[static_cast<std::size_t>(place - names.begin())];
     const std::size_t drive = all.driveOf(system);
     if (system.ensemble.count > 0) {
-      complaints_.add(map.key("system"), "has an ensemble: fit the system as given, without count");
+      complaints_.add(map.key("system"),
+                      "must not be an ensemble: remove count to fit the nominal system");
       return;
     }
     if (drive < all.drives.size() && all.drives[drive].motor) {
       complaints_.add(map.key("system"),
-                      "is turned by a motor: what a motor turns cannot be "
-                      "fitted yet; a drive or a constant speed can");
+                      "must not be driven by a motor: use a drive or a constant speed");
       return;
     }
     // What its controllers gave is measured, or it was not there.
@@ -112,7 +112,7 @@ class StudyReader {
       return;
     }
     study_.start_estimated =
-        windows.choice("start", {"estimated", "measured"}, "where a window's start comes from",
+        windows.choice("start", {"estimated", "measured"}, "the source of a window's initial state",
                        "estimated") == "estimated";
     if (windows.has("length") && windows.text("length", "") == "all") {
       study_.window = std::numeric_limits<double>::infinity();
@@ -151,7 +151,7 @@ class StudyReader {
                                  [](const StudyRun& run) { return run.train; });
     if (!any && !study_.validate_only && study_.runs.size() == runs.size()) {
       complaints_.add(map.key("runs"),
-                      "must have one with `use: train`, or be asked with --validate-only");
+                      "must have a run with `use: train`, or be called with --validate-only");
     }
   }
 
@@ -163,11 +163,10 @@ class StudyReader {
       complaints_.add(map.key("file"),
                       "missing; must be a file of comma-separated values, an LCM log or a rosbag");
     } else if (!files.insert(run.file).second) {
-      complaints_.add(map.key("file"),
-                      fmt::format("{} stands twice", whirl_twin::quoted(run.file)));
+      complaints_.add(map.key("file"), fmt::format("duplicate: {} is already in the list",
+                                                   whirl_twin::quoted(run.file)));
     }
-    run.train =
-        map.choice("use", {"train", "validate"}, "what a run is used for", "train") == "train";
+    run.train = map.choice("use", {"train", "validate"}, "the use of a run", "train") == "train";
     std::vector<std::string> columns;
     readMeasured(map, run, columns);
     readInputs(map, run, columns);
@@ -201,7 +200,7 @@ class StudyReader {
       return;
     }
     if (measured.names().empty()) {
-      complaints_.add(map.key("measured"), "must name a coordinate with its column");
+      complaints_.add(map.key("measured"), "must name a coordinate and its column");
     }
     for (const std::string& name : measured.names()) {
       const auto place = std::find(known.begin(), known.end(), name);
@@ -219,10 +218,10 @@ class StudyReader {
         requireScale(*entry, channel.scale);
         channel.deviation = entry->number("deviation", Range::kPositive, channel.unit, 1.0);
         if (entry->has("wrap")) {
-          channel.wrap = entry->choice("wrap", {"true", "false"}, "whether it counts within a turn",
-                                       "true") == "true";
+          channel.wrap =
+              entry->choice("wrap", {"true", "false"}, "true or false", "true") == "true";
           if (channel.unit != "rad") {
-            complaints_.add(entry->key("wrap"), "only angles have turns");
+            complaints_.add(entry->key("wrap"), "needs an angle");
           }
         }
       }
@@ -266,8 +265,7 @@ class StudyReader {
           complaints_.add(entry->key("delay"),
                           fmt::format("must be within {:g} s", kMaxInputDelay));
         }
-        input.hold =
-            entry->choice("hold", {"true", "false"}, "whether values are held", "false") == "true";
+        input.hold = entry->choice("hold", {"true", "false"}, "true or false", "false") == "true";
       }
       add(columns, input.column);
       run.inputs.push_back(input);
@@ -334,7 +332,7 @@ class StudyReader {
     const state::ParameterChange parameters = built_->parameters();
     if (!map.has("fit")) {
       if (!study_.validate_only) {
-        complaints_.add(map.key("fit"), "missing; must name the parameters to be found");
+        complaints_.add(map.key("fit"), "missing; must name the parameters to fit");
       }
       return;
     }
@@ -354,7 +352,7 @@ class StudyReader {
       const YAML::Node node = fit.at(path);
       if (!node.IsNull()) {
         const MapReader bounds(node, fit.key(path), {"min", "max", "start"},
-                               "key of a parameter to be found", complaints_);
+                               "key of a parameter to fit", complaints_);
         if (!bounds.usable()) {
           continue;
         }
@@ -362,10 +360,10 @@ class StudyReader {
         parameter.most = bounds.number("max", Range::kAny, "", parameter.most);
         parameter.start = bounds.number("start", Range::kAny, "", parameter.start);
         if (!(parameter.least < parameter.most)) {
-          complaints_.add(fit.key(path), "min must be below max");
+          complaints_.add(fit.key(path), "min must be < max");
         } else if (parameter.start < parameter.least || parameter.start > parameter.most) {
           complaints_.add(fit.key(path),
-                          fmt::format("starts at {:g}, outside of its bounds {:g} to {:g}",
+                          fmt::format("must start within its bounds {1:g} to {2:g}, found {0:g}",
                                       parameter.start, parameter.least, parameter.most));
         }
       }
@@ -377,7 +375,7 @@ class StudyReader {
     });
     if (study_.fit.empty() && !sensors && !study_.validate_only && fit.names().empty()) {
       complaints_.add(map.key("fit"),
-                      "must name a parameter to be found, or be asked with --validate-only");
+                      "must name a parameter to fit, or be called with --validate-only");
     }
   }
 

@@ -35,7 +35,7 @@ FollowedNumber followedNumber(const MapReader& map, const std::string& name,
     return number;
   }
   const MapReader entry(map.at(name), map.key(name), {"deviation", "walk"},
-                        "key of a number to be followed", complaints);
+                        "key of an estimated parameter", complaints);
   if (entry.usable()) {
     number.deviation = entry.numberBetween("deviation", kSmallest, kLargest, unit, std::nullopt);
     number.walk = entry.numberBetween("walk", 0.0, kLargest, unit + "/sqrt(s)", 0.0);
@@ -116,15 +116,16 @@ InputFollowing readInput(const MapReader& inputs, const InputInfo& info, const S
   of.source = path.substr(0, slash);
   of.channel = path.substr(std::min(slash + 1, path.size()));
   if (!isLegalName(of.source) || !isLegalName(of.channel)) {
-    complaints.add(key, fmt::format("must be what measures it, SOURCE/CHANNEL, found {}",
-                                    whirl_twin::quoted(path)));
+    complaints.add(key,
+                   fmt::format("must be the channel that measures it, SOURCE/CHANNEL, found {}",
+                               whirl_twin::quoted(path)));
   }
   for (const SensorSpec& sensor : scene.sensors) {
     const bool taken = std::any_of(sensor.channels.begin(), sensor.channels.end(),
                                    [&](const auto& c) { return c.name == of.channel; });
     if (sensor.name == of.source && (taken || sensor.keyphasor)) {
       complaints.add(
-          key, fmt::format("{} measures something else in the scene", whirl_twin::quoted(path)));
+          key, fmt::format("{} measures another quantity in the scene", whirl_twin::quoted(path)));
     }
   }
   return of;
@@ -183,14 +184,14 @@ SystemFollowing readSystem(const MapReader& map, const BuiltSystem& system, cons
       }
       if (*value == 0.0) {
         complaints.add(parameters.key(path),
-                       "is 0 in the scene: give it a value to start from, however small");
+                       "must start from a nonzero value in the scene, found 0");
       }
       of.parameters.push_back({path, followedNumber(parameters, path, "of its value", complaints)});
     }
   }
   for (const char* key : {"unbalance", "run_out"}) {
     if (map.has(key) && !rotor) {
-      complaints.add(map.key(key), "is of rotors");
+      complaints.add(map.key(key), "needs a rotor");
     }
   }
   if (map.has("unbalance")) {
@@ -217,10 +218,10 @@ FollowSettings readFollowSettings(const YAML::Node& tree, const std::string& sou
   Complaints complaints(source);
   FollowSettings settings;
   const MapReader map(tree, "", {"systems", "false_alarms", "patience"},
-                      "key of a follower's settings", complaints);
+                      "key of estimator settings", complaints);
   if (map.usable()) {
     settings.false_alarms =
-        map.numberBetween("false_alarms", 1.0e-9, kMostFalseAlarms, "an hour", 0.02);
+        map.numberBetween("false_alarms", 1.0e-9, kMostFalseAlarms, "per hour", 0.02);
     if (map.has("patience")) {
       settings.patience = map.numberBetween("patience", 0.0, kLongestPatience, "s", 0.0);
     }
@@ -238,7 +239,7 @@ FollowSettings readFollowSettings(const YAML::Node& tree, const std::string& sou
         const MapReader one(
             systems.at(system->spec.name), systems.key(system->spec.name),
             {"disturbance", "parameters", "inputs", "unbalance", "offsets", "run_out"},
-            "key of a system to be followed", complaints);
+            "key of an estimated system", complaints);
         if (one.usable()) {
           settings.systems[system->spec.name] = readSystem(one, *system, scene.scene, complaints);
         }

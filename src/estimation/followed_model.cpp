@@ -56,8 +56,8 @@ FollowedModel::FollowedModel(SharedSystem system, std::vector<FollowedParameter>
                                        std::numeric_limits<double>::infinity());
   if (!parameters_.empty() && !follow(Eigen::VectorXd::Zero(numbers_.size()))) {
     throw Refusal(scene_system_->spec.name +
-                  ": its parameters cannot be followed: a little more or less of one of them would "
-                  "make it another kind of system");
+                  ": its parameters cannot be estimated: a small change of one of them makes it "
+                  "another kind of system");
   }
 }
 

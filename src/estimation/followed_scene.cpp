@@ -100,10 +100,10 @@ Scene readFollowedScene(const YAML::Node& scene, const std::string& source) {
     for (const std::string& channel : keysOf(channels)) {
       if (names(channels[channel], spins) ||
           (channels[channel].IsMap() && names(channels[channel]["measures"], spins))) {
-        throw Refusal(fmt::format(
-            "{}: sensors.{}.{}: measures the spin of a shaft on a motor: its keyphasor tells it "
-            "to who follows the machine, leave the channel out",
-            source, printable(sensor), printable(channel)));
+        throw Refusal(
+            fmt::format("{}: sensors.{}.{}: must not measure the spin of a shaft on a motor: "
+                        "remove the channel, its keyphasor measures the spin",
+                        source, printable(sensor), printable(channel)));
       }
     }
   }

@@ -79,9 +79,8 @@ void Follower::addSensors(const FollowSettings& settings) {
       channel.deviation = c.deviation;
       channel.input = c.input;
       if (!c.input && !(channel.deviation > 0.0)) {
-        throw Refusal(
-            fmt::format("{}: sensors.{}.{}: needs noise or resolution: how far it can be trusted",
-                        scene.source, source.name, c.name));
+        throw Refusal(fmt::format("{}: sensors.{}.{}: needs noise or resolution (its uncertainty)",
+                                  scene.source, source.name, c.name));
       }
       const auto offset = of.offset.find(channel.name);
       channel.offset = offset == of.offset.end() ? 0.0 : offset->second;
@@ -100,10 +99,10 @@ void Follower::addSensors(const FollowSettings& settings) {
     const std::string& name = scene.systems[system].name;
     const std::size_t drive = twin_.systems()[system]->drive;
     if (drive < twin_.driveCount() && twin_.isMotor(drive)) {
-      throw Refusal(fmt::format(
-          "{}: systems.{}: is turned by a motor, whose torque nobody measures: give its "
-          "shaft a keyphasor, which tells how it turns, or another drive",
-          scene.source, name));
+      throw Refusal(
+          fmt::format("{}: systems.{}: the torque of its motor is not measured: give its shaft a "
+                      "keyphasor or another drive",
+                      scene.source, name));
     }
     if (std::all_of(channels.begin(), channels.end(),
                     [](const FollowedChannel& c) { return c.input.has_value(); })) {
@@ -115,8 +114,7 @@ void Follower::addSensors(const FollowSettings& settings) {
                                                        std::move(channels), settings.false_alarms);
   }
   if (followed.empty()) {
-    throw Refusal(scene.source +
-                  ": sensors: must name what is measured of a system to be followed");
+    throw Refusal(scene.source + ": sensors: must measure a system to be estimated");
   }
 }
 

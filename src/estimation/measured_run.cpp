@@ -55,8 +55,8 @@ void sortByTime(MeasuredRun& run, std::vector<std::size_t>& rows) {
   std::size_t back = 0, first_back = 0;
   for (std::size_t i = 0; i < run.time.size(); ++i) {
     if (!(std::fabs(run.time[i]) <= kLatest)) {
-      throw Refusal(fmt::format("row {}: the time must be within {:g} s of 0, found {:g}", rows[i],
-                                kLatest, run.time[i]));
+      throw Refusal(fmt::format("row {0}: the time must be from -{1:g} to {1:g} s, found {2:g}",
+                                rows[i], kLatest, run.time[i]));
     }
     if (i > 0 && run.time[i] < run.time[i - 1]) {
       first_back = back++ == 0 ? i : first_back;
@@ -84,7 +84,7 @@ void sortByTime(MeasuredRun& run, std::vector<std::size_t>& rows) {
     for (std::size_t i = 1; i < rows.size(); ++i) {
       if (run.time[i] == run.time[i - 1] && column.values[i] != column.values[i - 1]) {
         throw Refusal(fmt::format(
-            "{}rows {} and {} have different values of {} at {:.9g} s: expected one run, found two",
+            "{}rows {} and {} have different values of {} at {:.9g} s: must be one run, found two",
             where, rows[i - 1], rows[i], quoted(column.name), run.time[i]));
       }
     }
@@ -93,13 +93,13 @@ void sortByTime(MeasuredRun& run, std::vector<std::size_t>& rows) {
     if (variation(run.columns[c], run.time) >
         kAlternating * variation(of_file.columns[c], of_file.time)) {
       throw Refusal(fmt::format(
-          "{}in the order of time {} alternates between two motions: expected one run, found two",
+          "{}in the order of time {} alternates between two motions: must be one run, found two",
           where, quoted(run.columns[c].name)));
     }
   }
   run.remarks.push_back(
-      fmt::format("the time goes back at {} {}, the first is row {}: taken in the order of time",
-                  back, back == 1 ? "row" : "rows", first_back + 1));
+      fmt::format("the time goes back at {} {}, the first is row {}: sorted by time", back,
+                  back == 1 ? "row" : "rows", first_back + 1));
 }
 
 /// Rows whose instants are later than all before; `rows` are those they stand on.
@@ -126,7 +126,7 @@ void keepAscending(MeasuredRun& run, std::vector<std::size_t>& rows) {
   }
   if (repeated > 0) {
     run.remarks.push_back(
-        fmt::format("{} {} with the instant of the one before, left out; the first is row {}",
+        fmt::format("{} {} at the same instant as the one before, left out; the first is row {}",
                     repeated, repeated == 1 ? "row" : "rows", first_repeated));
   }
 }
@@ -147,7 +147,7 @@ void remarkOnTime(MeasuredRun& run, const std::vector<std::size_t>& rows) {
   const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
   if (gaps == 0 && *most - *least > kUneven * usual) {
     run.remarks.push_back(
-        fmt::format("uneven steps, {:.4g} to {:.4g} s: taken as they are", *least, *most));
+        fmt::format("uneven steps, {:.4g} to {:.4g} s: used unchanged", *least, *most));
   }
 }
 

@@ -49,7 +49,7 @@ class Columns {
     const double scale = unitScale(unit, wanted);
     if (scale == 0.0) {
       throw Refusal(
-          fmt::format("column {}: is in {}, and {} must be in {} or another unit of that "
+          fmt::format("column {}: the unit is {}, but {} must be in {} or another unit of that "
                       "kind",
                       quoted(name), printable(unit), what, wanted));
     }
@@ -86,11 +86,11 @@ void judgeChannel(MeasuredRun& run, const MeasuredChannel& channel) {
   const auto [least, most] = std::minmax_element(x.begin(), x.end());
   if (*most - *least > kManyTurns * kTwoPi) {
     run.remarks.push_back(fmt::format(
-        "{} ranges over {:.3g} rad, {:.3g} turns: is it in degrees? `q[deg]` would say so",
+        "{} ranges over {:.3g} rad, {:.3g} turns: is it in degrees? then write `q[deg]`",
         quoted(channel.column), *most - *least, (*most - *least) / kTwoPi));
   } else if (leap > 0.5 * kTwoPi) {
     run.remarks.push_back(fmt::format(
-        "{} leaps by {:.3g} rad from one row to the next, at {:.9g} s: wrapped at a turn, or in "
+        "{} jumps by {:.3g} rad from one row to the next, at {:.9g} s: wrapped at a turn, or in "
         "degrees?",
         quoted(channel.column), leap, run.time[leaps_at]));
   }
@@ -120,10 +120,11 @@ void replaceWildSamples(MeasuredRun& run, const std::string& name) {
   if (wild.empty()) {
     return;
   }
-  run.remarks.push_back(fmt::format(
-      "{}: {} wild {}, the first of {:.4g} at {:.9g} s: replaced by the mean of the rows beside it",
-      quoted(name), wild.size(), wild.size() == 1 ? "sample" : "samples", x[wild.front()],
-      run.time[wild.front()]));
+  run.remarks.push_back(
+      fmt::format("{}: {} implausible {}, the first of {:.4g} at {:.9g} s: replaced by the mean of "
+                  "the neighbouring rows",
+                  quoted(name), wild.size(), wild.size() == 1 ? "sample" : "samples",
+                  x[wild.front()], run.time[wild.front()]));
   for (const std::size_t i : wild) {
     const double after = x[i + 1];
     const bool jumps = std::fabs(after - x[i - 1]) > kPi;  // of an angle, to the next turn
@@ -137,8 +138,8 @@ void settleUnits(StudyRun& run, const std::string& time, const std::vector<Input
                  double step_seconds) {
   const std::string unit = columnUnit(time);
   if (!unit.empty() && unitScale(unit, "s") != 1.0) {
-    throw Refusal(fmt::format("column {}: the time must be in s, and is in {}", quoted(time),
-                              printable(unit)));
+    throw Refusal(
+        fmt::format("column {}: the time must be in s, found {}", quoted(time), printable(unit)));
   }
   Columns columns(run.data);
   for (const MeasuredChannel& channel : run.measured) {
@@ -162,13 +163,12 @@ void settleUnits(StudyRun& run, const std::string& time, const std::vector<Input
 
 void requireUse(const StudyRun& run, double window) {
   if (run.train && standsStill(run)) {
-    throw Refusal(
-        "what is measured is the same in every row: a run that tells of the machine moves");
+    throw Refusal("the measurements must change during a run, found the same values in every row");
   }
   const double usual = run.data.usualStep();
   if (kFewestInWindow * usual > window * (1.0 + 1.0e-9)) {
     throw Refusal(
-        fmt::format("rows are {:.4g} s apart, and windows of {:g} s hold less than {}: give longer "
+        fmt::format("rows are {:.4g} s apart, so windows of {:g} s have fewer than {}: use longer "
                     "windows, or the time in s",
                     usual, window, kFewestInWindow));
   }

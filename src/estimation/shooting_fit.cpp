@@ -41,10 +41,10 @@ void requireArrival(const FitStudy& study, const ShootingStage& stage,
   for (std::size_t w = 0; w < arrived.size(); ++w) {
     if (!arrived[w]) {
       const StudyRun& run = study.runs[stage.windows[w].run];
-      throw RunFailure(fmt::format(
-          "{}: {}: the motion does not get through the window from {:.6g} s on with the "
-          "parameters as they start: give values nearer to the machine's, or shorter windows",
-          study.source, run.file, run.data.time[stage.windows[w].first]));
+      throw RunFailure(
+          fmt::format("{}: {}: with the start values of the parameters the motion stops in the "
+                      "window from {:.6g} s: use better start values, or shorter windows",
+                      study.source, run.file, run.data.time[stage.windows[w].first]));
     }
   }
 }

@@ -79,10 +79,10 @@ bool isWrapped(const AngleSteps& steps, const std::vector<double>& time, double 
     }
   }
   if (jumps == 0 && over_gap > 0 && within) {
-    throw Refusal(fmt::format(
-        "column {}: jumps by {:.3g} rad in the gap before {:.9g} s: expected `wrap: true` if it "
-        "counts within a turn, `wrap: false` if it goes on counting",
-        quoted(column), steps.of(over_gap), time[over_gap]));
+    throw Refusal(
+        fmt::format("column {}: jumps by {:.3g} rad in the gap before {:.9g} s: set `wrap: true` "
+                    "if the angle is within one turn, `wrap: false` if it counts turns",
+                    quoted(column), steps.of(over_gap), time[over_gap]));
   }
   return jumps > 0 && range <= kMostTurnsCounted * kTwoPi;
 }
@@ -93,16 +93,16 @@ void requireDirections(const AngleSteps& steps, const std::vector<double>& time,
   for (std::size_t i = 1; i < steps.count(); ++i) {
     const double step = withoutTurns(steps.of(i));
     if (steps.isSampled(i) && !AngleSteps::isSure(step)) {
-      throw Refusal(fmt::format(
-          "column {}: counts within a turn and moves by {:.3g} rad from one row to the next, at "
-          "{:.9g} s: expected three rows a turn at least, or which way it turns is not known "
-          "(`wrap: false` takes it as it is)",
-          quoted(column), step, time[i]));
+      throw Refusal(
+          fmt::format("column {}: a wrapped angle moves by {:.3g} rad from one row to the next, at "
+                      "{:.9g} s: must have at least three rows per turn, or the direction is "
+                      "unknown (`wrap: false` does not unwrap it)",
+                      quoted(column), step, time[i]));
     }
     if (!steps.isSampled(i) && fastest * steps.duration(i) > kPi) {
       throw Refusal(fmt::format(
-          "column {}: counts within a turn, and may have turned further in the gap of {:.4g} s "
-          "before {:.9g} s: expected no gap, or the rows before and after it as two runs",
+          "column {}: a wrapped angle may have turned further in the gap of {:.4g} s before {:.9g} "
+          "s: must have no gap; give the rows before and after it as two runs",
           quoted(column), steps.duration(i), time[i]));
     }
   }
@@ -135,10 +135,10 @@ void unwrapTurns(MeasuredRun& run, const MeasuredChannel& channel) {
     x[i] += kTwoPi * turns;
   }
   if (jumps > 0) {
-    run.remarks.push_back(fmt::format(
-        "{} counts within a turn: {} {} of whole turns unwrapped, the first at {:.9g} s (`wrap: "
-        "false` takes it as it is)",
-        quoted(channel.column), jumps, jumps == 1 ? "jump" : "jumps", run.time[first]));
+    run.remarks.push_back(
+        fmt::format("{} is a wrapped angle: {} {} of whole turns unwrapped, the first at {:.9g} s "
+                    "(`wrap: false` does not unwrap it)",
+                    quoted(channel.column), jumps, jumps == 1 ? "jump" : "jumps", run.time[first]));
   }
 }
 

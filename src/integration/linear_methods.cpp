@@ -341,7 +341,7 @@ LinearStepMap linearStepMap(const LinearEquation& equation, const std::string& m
   const auto found = std::find_if(methods().begin(), methods().end(),
                                   [&](const auto& entry) { return entry.first == method; });
   if (found == methods().end()) {
-    throw std::logic_error("no integrator of linear systems is called " + method);
+    throw std::logic_error("unknown integrator of linear systems: " + method);
   }
   return equation.acceleration().allFinite() ? found->second(equation, h) : outOfRange(equation);
 }

@@ -36,7 +36,7 @@ MatrixXd forceSlope(const LinearRotor& rotor, double speed) {
 
 void requireFinite(const MatrixXd& matrix) {
   if (!matrix.allFinite()) {
-    throw RunFailure("the rotor's step is beyond the range of doubles: shorten the step");
+    throw RunFailure("the rotor's step exceeds the range of doubles: shorten the step");
   }
 }
 

@@ -36,7 +36,7 @@ const StepMethod& stepMethod(const std::string& name) {
   const auto found = std::find_if(stepMethods().begin(), stepMethods().end(),
                                   [&](const StepMethod& m) { return m.name == name; });
   if (found == stepMethods().end()) {
-    throw std::logic_error("no integrator is called " + name);
+    throw std::logic_error("unknown integrator: " + name);
   }
   return *found;
 }
@@ -44,7 +44,7 @@ const StepMethod& stepMethod(const std::string& name) {
 std::string stepsText(const std::string& integrator, int substeps) {
   return stepMethod(integrator).ahead && substeps > 1
              ? "one for " + std::to_string(substeps) + " steps"
-             : std::to_string(substeps) + " a step";
+             : std::to_string(substeps) + " per step";
 }
 
 }  // namespace whirl_twin

@@ -122,7 +122,7 @@ std::vector<Condition> LinearRotorDynamics::conditions(const Eigen::VectorXd&,
   const double inside = std::min(at.speed - data.from, data.to - at.speed);
   const double margin = inside == 0.0 ? std::numeric_limits<double>::min() : inside;
   return {{"speed_of_tables", "rad/s", margin,
-           "the speed is beyond its tables of bearings and pedestals"}};
+           "the speed is outside the tables of bearings and pedestals"}};
 }
 
 }  // namespace whirl_twin

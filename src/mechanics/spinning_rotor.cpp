@@ -68,7 +68,7 @@ SpinningRotor::SpinningRotor(std::shared_ptr<const Dynamics> held, std::vector<L
   const VectorXd zero = VectorXd::Zero(held_->dof());
   mass_ = held_->massMatrix(zero, zero, {});
   if (!(carriedInertia(unbalance_, mass_) < coupling_.polar_inertia)) {
-    throw Refusal("a motor needs a polar inertia greater than what its unbalances make of one");
+    throw Refusal("with a motor the polar inertia must be greater than that of the unbalances");
   }
   const Dynamics& balanced = held_->atMeanLoad();
   if (&balanced != held_.get()) {
@@ -102,7 +102,7 @@ double SpinningRotor::torque(const VectorXd& x, const VectorXd& r, double speed)
 
 std::vector<CoordinateInfo> SpinningRotor::coordinates() const {
   std::vector<CoordinateInfo> all = held_->coordinates();
-  all.push_back({"spin", "rad", "of the shaft, in the sense of its motor"});
+  all.push_back({"spin", "rad", "of the shaft, in the direction of its motor"});
   return all;
 }
 

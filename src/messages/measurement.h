@@ -71,7 +71,7 @@ struct Measurement {
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end()) {
-      throw RejectedMessage(std::string(field) + ": " + *twice + " stands there twice");
+      throw RejectedMessage(std::string(field) + ": " + *twice + " is a duplicate");
     }
   }
 
@@ -93,7 +93,7 @@ struct Measurement {
     requireRange(field, instants.back(), first, kMaxStamp);
     if (std::adjacent_find(instants.begin(), instants.end(), std::greater_equal<>()) !=
         instants.end()) {
-      throw RejectedMessage(std::string(field) + ": expected each later than the one before");
+      throw RejectedMessage(std::string(field) + ": expected increasing times");
     }
   }
 };

@@ -12,15 +12,15 @@ class MonitorPulse {
  public:
   void beat(double wall_time) { heard_at_ = wall_time; }
 
-  /// At wall_time [s]: "the monitor is silent for 5 s: nothing is being watched"; "" while it
+  /// At wall_time [s]: "no message from the monitor for 5 s: nothing is monitored"; "" while it
   /// beats.
   std::string silence(double wall_time) const {
     if (!heard_at_ || std::fabs(wall_time - *heard_at_) <= kPatience) {
       return "";
     }
-    return "the monitor is silent for " +
+    return "no message from the monitor for " +
            std::to_string(std::lround(std::fabs(wall_time - *heard_at_))) +
-           " s: nothing is being watched";
+           " s: nothing is monitored";
   }
 
  private:

@@ -145,12 +145,13 @@ ModelInfo cantileverBeamInfo() {
   ModelInfo info;
   info.name = "cantilever_beam";
   info.summary = "uniform cantilever in bending, by assumed modes";
-  info.coordinates_meaning = "q1, q2 ... (m): what each mode adds to the deflection of the tip, up";
+  info.coordinates_meaning =
+      "q1, q2 ... (m): contribution of each mode to the deflection of the tip, up";
   info.parameters = {
       {"mass_per_length", "kg/m", Range::kPositive, "of the beam", {}, ""},
       {"length", "m", Range::kPositive, "of the beam", {}, ""},
       {"bending_stiffness", "N m^2", Range::kPositive, "EI of the beam", {}, ""},
-      {"modes", "-", Range::kCount, "how many, up to 30; the higher half of them is coarse", 3.0,
+      {"modes", "-", Range::kCount, "number, up to 30; the higher half of them is inaccurate", 3.0,
        ""},
       {"damping_ratio", "-", Range::kNotNegative, "of every mode", 0.0, ""},
       {"tip_force", "N", Range::kAny, "across the beam at its free end, F cos(w t)", 0.0, ""},

@@ -58,7 +58,7 @@ int probeNode(const Settings& settings, const FlexibleShaft& shaft) {
     const auto moves =
         std::find_if(choice.begin(), choice.end(), [&](int node) { return !isHeld(shaft, node); });
     if (moves == choice.end()) {
-      throw SetupError("bearings", "hold every node rigidly: nothing is left that moves");
+      throw SetupError("bearings", "must leave a free node, found every node rigidly supported");
     }
     return *moves;
   }
@@ -69,9 +69,8 @@ int probeNode(const Settings& settings, const FlexibleShaft& shaft) {
         fmt::format("must be auto or a whole number from 0 to {}, found {}", last, node));
   }
   if (isHeld(shaft, node)) {
-    throw SetupError("probe_node", fmt::format("must be a node that moves; a pin or clamp holds "
-                                               "node {}",
-                                               node));
+    throw SetupError("probe_node",
+                     fmt::format("must be a free node; node {} has a pin or clamp", node));
   }
   return node;
 }
@@ -204,8 +203,8 @@ void requireFinite(const LinearRotor& rotor) {
   if (!l.mass.allFinite() || !l.stiffness.allFinite() || !l.damping.allFinite() ||
       !(l.mass.diagonal().array() > 0.0).all()) {
     throw SetupError("elements",
-                     "must give masses and stiffnesses that doubles can hold; those of "
-                     "this shaft and material are beyond their range");
+                     "must give masses and stiffnesses within the range of doubles; those of this "
+                     "shaft and material exceed it");
   }
 }
 
@@ -214,8 +213,7 @@ std::shared_ptr<const Dynamics> dynamicsOf(RotorDescription description, LinearR
     return std::make_shared<const LinearRotorDynamics>(std::move(description), std::move(rotor));
   } catch (const Refusal&) {
     throw SetupError("elements",
-                     "must give a mass in every motion that rounding does not hide "
-                     "beside the others");
+                     "must give every motion a mass above the rounding error of the others");
   }
 }
 
@@ -240,9 +238,9 @@ RotorAssembly assembled(const FlexibleShaft& shaft) {
 
 const char* coordinatesInWords(const FlexibleShaft& shaft, const RotorAssembly& assembly) {
   return static_cast<Index>(assembly.moving().size()) < shaft.coordinates()
-             ? "those that are neither held rigidly nor without mass"
-         : shaft.pedestals.empty() ? "four a node"
-                                   : "four a node and two a pedestal";
+             ? "those with mass and without a rigid support"
+         : shaft.pedestals.empty() ? "four per node"
+                                   : "four per node and two per pedestal";
 }
 
 std::shared_ptr<const UnreducedRotor> unreducedRotor(const RotorAssembly& assembly,
@@ -273,8 +271,8 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   std::vector<std::string> notes = shaftNotes(values, settings, shaft);
   if (!assembly.massive().empty()) {
     notes.push_back(
-        fmt::format("{} coordinates of the shaft have no mass and do not follow the "
-                    "others at once; each is given {:g} of the heaviest node's",
+        fmt::format("{} coordinates of the shaft have no mass and are not determined by the "
+                    "others; each gets {:g} of the heaviest node's",
                     assembly.massive().size(), kNegligible));
   }
   double highest_speed = kInfinity;
@@ -318,10 +316,9 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
       setup = spinningRotorSetup(linear, std::move(forces),
                                  spinOf(shaft, assembly, values, *around.motor), fastest);
     } catch (const Refusal&) {
-      throw SetupError(
-          "unbalances",
-          "must each be less than what the mass there can carry with a motor: the "
-          "mass centre lies farther out than the radius of gyration of all that turns");
+      throw SetupError("unbalances",
+                       "with a motor, each eccentricity must be less than the radius of gyration "
+                       "of the rotating parts");
     }
   } else {
     setup = linearRotorSetup(linear, std::move(forces));
@@ -338,23 +335,24 @@ ModelInfo flexibleRotorInfo() {
   info.summary = "shaft of finite elements with discs, bearings and unbalances";
   info.coordinates_meaning =
       "x_N, y_N (m): of node N from the bearings' line, y up; alpha_N, beta_N (rad): its tilts "
-      "about x and y, right-handed; with modes: q1, q2 ... (m), of its shapes";
+      "about x and y, right-handed; with modes: q1, q2 ... (m), modal";
   info.parameters = materialParameters();
   const std::vector<ParameterInfo> further{
       {"internal_damping", "s", Range::kNotNegative,
        "of the shaft's material: stress = E (strain + this * strain rate)", 0.0, ""},
       {"mass_damping", "1/s", Range::kNotNegative,
-       "of the elements, not turning: C = this * M (alpha)", 0.0, ""},
+       "of the elements, non-rotating: C = this * M (alpha)", 0.0, ""},
       {"stiffness_damping", "s", Range::kNotNegative,
-       "of the elements, not turning: C = this * K (beta)", 0.0, ""},
+       "of the elements, non-rotating: C = this * K (beta)", 0.0, ""},
       {"highest_speed", "rad/s", Range::kNotNegative,
-       "up to which reduced modes must hold; 0: twice the fourth natural frequency", 0.0, ""},
+       "up to which the reduced-order model must be valid; 0: twice the fourth natural frequency",
+       0.0, ""},
       {"tolerance", "-", Range::kPositive, "of the unbalance response, for modes: auto", 1.0e-6,
        ""},
       {"driven_inertia", "kg m^2", Range::kNotNegative,
-       "with a motor: polar, of what it turns besides the shaft and its discs", 0.0, ""},
+       "with a motor: polar inertia driven besides the shaft and its discs", 0.0, ""},
       {"phase_mark", "rad", Range::kAny,
-       "from the shaft's mark, that the phase of the whirl counts from", 0.0, ""}};
+       "reference of the whirl's phase, from the shaft's phase mark", 0.0, ""}};
   info.parameters.insert(info.parameters.end(), further.begin(), further.end());
   info.settings = flexibleShaftSettings();
   for (SettingInfo& setting : localElementSettings()) {
@@ -363,8 +361,8 @@ ModelInfo flexibleRotorInfo() {
   info.settings.push_back({"modes",
                            SettingKind::kWordOrCount,
                            "",
-                           "coordinates kept; 0: x, y, alpha, beta of every node; auto: as many as "
-                           "tolerance asks for",
+                           "number of retained modes; 0: x, y, alpha, beta of every node; auto: as "
+                           "many as tolerance requires",
                            {"auto"}});
   info.settings.push_back({"probe_node",
                            SettingKind::kWordOrCount,

@@ -52,8 +52,9 @@ std::vector<ShaftSection> elementsOf(const Settings& settings, const ShaftMateri
     const double count = row.at("count");
     const double all = static_cast<double>(elements.size()) + count;
     if (all > kMostElements) {
-      throw SetupError(key + ".count", fmt::format("must leave up to {} elements in all, found {}",
-                                                   kMostElements, all));
+      throw SetupError(
+          key + ".count",
+          fmt::format("must give at most {} elements in total, found {}", kMostElements, all));
     }
     for (int part = 0; part < static_cast<int>(count); ++part) {
       ShaftSection section = ring.section(row.at("length"), part / count, (part + 1) / count);
@@ -78,7 +79,8 @@ void addCouplings(const Settings& settings, FlexibleShaft& shaft) {
     const int element = indexIn(rows[i], key, "element", shaft.nodes() - 2);
     ShaftSection& section = shaft.elements[static_cast<std::size_t>(element)];
     if (section.coupling) {
-      throw SetupError(key + ".element", fmt::format("stands twice, found {}", element));
+      throw SetupError(key + ".element",
+                       fmt::format("duplicate: element {} already has a coupling", element));
     }
     section.coupling = {n.at("lateral_stiffness"), n.at("bending_stiffness"),
                         n.at("lateral_damping"), n.at("bending_damping")};
@@ -125,12 +127,14 @@ ShaftSection sleeveOn(Ring& there, double length, const std::map<std::string, do
   if (liner) {
     there.inner = there.inner_end = inner;
   } else if (!(outer > around)) {
-    throw SetupError(key + ".outer_diameter",
-                     fmt::format("must be > {} m, of what it sits on, found {}", around, outer));
+    throw SetupError(
+        key + ".outer_diameter",
+        fmt::format("must be > {} m, the outer diameter below it, found {}", around, outer));
   } else if (inner > 0.0 && !(inner >= around * (1.0 - kSameDiameter))) {
     throw SetupError(
         key + ".inner_diameter",
-        fmt::format("must be >= {} m, of what it sits on, or left out, found {}", around, inner));
+        fmt::format("must be >= {} m, the outer diameter below it, or omitted, found {}", around,
+                    inner));
   } else {
     there.outer = there.outer_end = outer;
   }
@@ -192,7 +196,7 @@ RotorDisc discOf(const TableRow& row, const ShaftMaterials& materials, int last,
   for (const auto& [name, value] :
        {std::pair{"outer_diameter", outer}, std::pair{"width", width}}) {
     if (!(value > 0.0)) {
-      throw SetupError(fmt::format("{}.{}", key, name), "must be > 0 m, of a disc by its geometry");
+      throw SetupError(fmt::format("{}.{}", key, name), "must be > 0 m for a disc by its geometry");
     }
   }
   requireBelow(inner, outer, key, "");
@@ -223,9 +227,8 @@ std::vector<SettingInfo> flexibleShaftSettings() {
           rows("elements",
                "of the shaft; element i joins node i and node i + 1. length is that of each of its "
                "count elements, which are count times as long together. A row tapers evenly over "
-               "all of them to its diameters at its _end; its axial force pulls, its torque turns "
-               "what follows with x "
-               "towards y",
+               "all of them to its diameters at its _end; a positive axial force is tension, a "
+               "positive torque rotates the following part from x to y",
                {{"length", "m", Range::kPositive, kRequired},
                 {"outer_diameter", "m", Range::kPositive, kRequired},
                 {"outer_diameter_end", "m", Range::kPositive, 0.0, "outer_diameter"},
@@ -235,8 +238,8 @@ std::vector<SettingInfo> flexibleShaftSettings() {
                 {"torque", "N m", Range::kAny, 0.0},
                 {"count", "-", Range::kCount, 1.0}})),
       rows("couplings",
-           "elements that are a joint between two rigid arms: without mass, which discs at their "
-           "nodes have; of the row in elements their length and what is drawn. They turn with the "
+           "elements that are a joint between two rigid arms: without mass (add discs at their "
+           "nodes); the row in elements gives their length and drawing. They rotate with the "
            "shaft",
            {{"element", "-", Range::kNotNegative, kRequired},
             {"lateral_stiffness", "N/m", Range::kNotNegative, kRequired},
@@ -245,8 +248,8 @@ std::vector<SettingInfo> flexibleShaftSettings() {
             {"bending_damping", "N m s/rad", Range::kNotNegative, 0.0}}),
       materialsSetting(),
       ofMaterial(rows("sleeves",
-                      "on the elements between two nodes, or in their bore, one upon another; "
-                      "inner_diameter 0: of what it sits on; stiffness_share 0: mass only",
+                      "on the elements between two nodes, or in their bore, in layers; "
+                      "inner_diameter 0: the diameter below it; stiffness_share 0: mass only",
                       {{"from", "-", Range::kNotNegative, kRequired},
                        {"to", "-", Range::kNotNegative, kRequired},
                        {"outer_diameter", "m", Range::kPositive, kRequired},
@@ -274,16 +277,16 @@ std::vector<SettingInfo> flexibleShaftSettings() {
              {"magnitude", "kg m", Range::kNotNegative, kRequired},
              {"angle", "rad", Range::kAny, 0.0}}),
        rows("modal_damping",
-            "damping ratio over the natural frequency at rest, of every mode of rotor and bearings "
-            "without theirs, not turning; linear between rows, beyond them as the nearest",
+            "damping ratio over the natural frequency at standstill, non-rotating, for every mode "
+            "of rotor and undamped bearings; linear between rows, constant outside",
             {{"frequency", "rad/s", Range::kNotNegative, 0.0},
              {"ratio", "-", Range::kNotNegative, kRequired}}),
        rows("stations",
-            "nodes whose whirl is published as SYSTEM_node_N, beside that of probe_node", {node}),
+            "nodes whose whirl is published as SYSTEM_node_N, besides that of probe_node", {node}),
        {"shear_deformation",
         SettingKind::kChoice,
         "",
-        "Timoshenko's beam, or Rayleigh's without",
+        "true: Timoshenko beam; false: Rayleigh beam",
         {"true", "false"}},
        {"gravity_on_shaft",
         SettingKind::kChoice,
@@ -339,21 +342,21 @@ std::vector<std::string> shaftNotes(const ParameterValues& values, const Setting
   }
   const double length = shaft.positions().back();
   if (length > kLongestShaft) {
-    notes.push_back(fmt::format("a shaft {:.6g} m long; lengths are in m", length));
+    notes.push_back(fmt::format("the shaft is {:.6g} m long; lengths are in m", length));
   }
   double thickest = 0.0;
   for (const ShaftSection& element : shaft.elements) {
     thickest = std::max(thickest, element.outer_diameter);
   }
   if (thickest > length) {
-    notes.push_back(
-        fmt::format("a shaft {:.6g} m thick, {:.6g} m long; lengths are in m", thickest, length));
+    notes.push_back(fmt::format("the shaft is {:.6g} m thick and {:.6g} m long; lengths are in m",
+                                thickest, length));
   }
   for (std::size_t i = 0; i < shaft.discs.size(); ++i) {
     const RotorDisc& disc = shaft.discs[i];
     if (disc.transverse_inertia > 0.0 && disc.polar_inertia > kThinnest * disc.transverse_inertia) {
       notes.push_back(
-          fmt::format("discs[{}]: no body has a polar_inertia, {:.6g} kg m^2, above twice its "
+          fmt::format("discs[{}]: polar_inertia, {:.6g} kg m^2, should be at most twice "
                       "transverse_inertia, {:.6g} kg m^2",
                       i, disc.polar_inertia, disc.transverse_inertia));
     }
@@ -368,7 +371,7 @@ std::vector<int> publishedNodes(const Settings& settings, const FlexibleShaft& s
     const std::string key = fmt::format("stations[{}]", i);
     const int node = indexIn(rows[i], key, "node", shaft.nodes() - 1);
     if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) {
-      throw SetupError(key + ".node", fmt::format("stands twice, found {}", node));
+      throw SetupError(key + ".node", fmt::format("duplicate: node {} already has one", node));
     }
     nodes.push_back(node);
   }

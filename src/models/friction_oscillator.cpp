@@ -13,7 +13,7 @@ ModelInfo frictionOscillatorInfo() {
   ModelInfo info = modelInfo<StickingFrictionOscillator>();
   addVariant<FrictionOscillator>(
       info, "friction", "sticking", "sliding",
-      "whether a roller can hold the plank, or it slides on both at any speed, which is linear");
+      "whether the plank can stick to a roller, or always slides on both, which is linear");
   addVariant<RegularizedFrictionOscillator>(info, "regularization > 0",
                                             [](const ParameterValues& values, const Settings&) {
                                               return values.at("regularization") > 0.0;
@@ -24,8 +24,8 @@ ModelInfo frictionOscillatorInfo() {
     const double reach = half - values.at("friction_coefficient") * values.at("height");
     if (std::fabs(reach) <= 4.0e-16 * half) {  // no more than rounding
       throw SetupError("half_spacing",
-                       "must not equal friction_coefficient x height: there the plank is about to "
-                       "tip and its frequency infinite");
+                       "must not equal friction_coefficient x height, where the plank tips and its "
+                       "frequency is infinite");
     }
     return plain(values, settings, around);
   };

@@ -61,7 +61,7 @@ void check(const ParameterValues& values, const Surroundings& around) {
     need(values, "journal_mass", "kg", "bearing_length");
     if (isNonlinear(values)) {
       throw SetupError("bearing_length",
-                       "a rotor in journal bearings has neither a loss_factor nor a rub");
+                       "must not be given with journal bearings: loss_factor, rub");
     }
   }
 }
@@ -75,7 +75,7 @@ ModelSetup setUpLevitated(const ParameterValues& values, const Settings& setting
   }
   if (around.motor || isNonlinear(values) || given(values, "bearing_length")) {
     throw SetupError("magnets",
-                     "a rotor on a magnet has neither a motor, a loss_factor, a rub nor journal "
+                     "must not be given with a motor, a loss_factor, a rub or journal "
                      "bearings");
   }
   const std::shared_ptr<const Dynamics> plain = std::make_shared<LagrangianDynamics<JeffcottRotor>>(

@@ -38,22 +38,23 @@ std::vector<std::string> coordinateNames(const Settings& settings, Index n) {
   }
   const std::vector<std::string>& names = given->second;
   if (static_cast<Index>(names.size()) != n) {
-    throw SetupError("names", fmt::format("must be one name a coordinate, {} in all, found {}", n,
-                                          names.size()));
+    throw SetupError("names", fmt::format("must be one name per coordinate, {} in total, found {}",
+                                          n, names.size()));
   }
   std::set<std::string> taken;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string key = fmt::format("names[{}]", i);
     if (!isLegalName(names[i])) {
-      throw SetupError(key, fmt::format("must be up to {} letters, digits and _, a letter first, "
-                                        "found {}",
-                                        kMaxNameLength, quoted(names[i])));
+      throw SetupError(
+          key, fmt::format("must have at most {} letters, digits and _, a letter first, found {}",
+                           kMaxNameLength, quoted(names[i])));
     }
     // A coordinate x also takes x_rate, the name of its rate.
     if (!taken.insert(names[i]).second || !taken.insert(names[i] + "_rate").second) {
-      throw SetupError(key, fmt::format("must be a name that no other coordinate or its rate has, "
-                                        "found '{}'",
-                                        names[i]));
+      throw SetupError(
+          key,
+          fmt::format("must differ from the names of other coordinates and their rates, found '{}'",
+                      names[i]));
     }
   }
   return names;
@@ -92,15 +93,14 @@ std::vector<HarmonicForce> forcesOf(const Settings& settings,
 LinearModel inAssumedModes(const LinearModel& full, const MatrixXd& shapes) {
   const Index n = full.mass.rows();
   if (shapes.rows() != n || shapes.cols() > n) {
-    throw SetupError("assumed_modes",
-                     fmt::format("must have {} rows, one a coordinate, and up to {} columns, one a "
-                                 "shape, found {} x {}",
-                                 n, n, shapes.rows(), shapes.cols()));
+    throw SetupError("assumed_modes", fmt::format("must have {} rows, one per coordinate, and at "
+                                                  "most {} columns, one per shape, found {} x {}",
+                                                  n, n, shapes.rows(), shapes.cols()));
   }
-  const SetupError dependent(
-      "assumed_modes", fmt::format("must be linearly independent shapes, found {} of which one is "
-                                   "zero or a sum of the others",
-                                   shapes.cols()));
+  const SetupError dependent("assumed_modes",
+                             fmt::format("must be linearly independent shapes, found {} of which "
+                                         "one is zero or a combination of the others",
+                                         shapes.cols()));
   LinearModel model;
   try {
     const Linearization r = reduced(
@@ -139,8 +139,8 @@ void requireFiniteAccelerations(const LinearModel& model) {
   }
   if (!finite) {
     throw SetupError("mass",
-                     "must give finite accelerations; those of this stiffness, damping or force "
-                     "are beyond the range of doubles");
+                     "must give accelerations within the range of doubles; those of this "
+                     "stiffness, damping or force exceed it");
   }
 }
 
@@ -188,17 +188,17 @@ ModelInfo linearSystemInfo() {
   ModelInfo info;
   info.name = "linear_system";
   info.summary = "any linear system, by its matrices";
-  info.coordinates_meaning = "q1, q2 ... or the names given, in the unit that its matrices are in";
+  info.coordinates_meaning = "q1, q2 ... or the names given, in the units of the matrices";
   info.settings = {
-      matrix("mass", "kg", "symmetric, positive definite; a row a coordinate"),
+      matrix("mass", "kg", "symmetric, positive definite; a row per coordinate"),
       matrix("stiffness", "N/m", "symmetric; rigid-body modes are allowed"),
-      matrix("damping", "N s/m", "symmetric; none if not given"),
-      matrix("gyroscopic", "N s/m", "skew-symmetric; none if not given"),
-      matrix("circulatory", "N/m", "skew-symmetric; none if not given"),
-      {"names", SettingKind::kNames, "", "of the coordinates; q1, q2 ... if not given"},
+      matrix("damping", "N s/m", "symmetric; default none"),
+      matrix("gyroscopic", "N s/m", "skew-symmetric; default none"),
+      matrix("circulatory", "N/m", "skew-symmetric; default none"),
+      {"names", SettingKind::kNames, "", "of the coordinates; default q1, q2 ..."},
       {"force", SettingKind::kTable, "", "amplitude cos(frequency t + phase) on a coordinate"},
       matrix("assumed_modes", "of a shape",
-             "a column a shape: the system is reduced to their amplitudes q1, q2 ..."),
+             "a column per shape: the system is reduced to their amplitudes q1, q2 ..."),
   };
   info.settings[0].required = true;
   info.settings[1].required = true;

@@ -34,7 +34,8 @@ Rub rubOf(const TableRow& row, const std::string& key) {
 void add(NodeElement element, const std::string& key, std::vector<NodeElement>& all) {
   if (std::any_of(all.begin(), all.end(),
                   [&](const NodeElement& other) { return other.name == element.name; })) {
-    throw SetupError(key + ".node", fmt::format("stands twice, found {}", element.node));
+    throw SetupError(key + ".node",
+                     fmt::format("duplicate: node {} already has one", element.node));
   }
   all.push_back(std::move(element));
 }
@@ -49,7 +50,7 @@ std::vector<SettingInfo> localElementSettings() {
   };
   const ColumnInfo node{"node", "-", Range::kNotNegative, kRequired};
   return {rows("rubs",
-               "stators that the shaft touches beyond a clearance; a gap is one without friction",
+               "stators that the shaft contacts beyond a clearance; a gap is one without friction",
                {node,
                 {"clearance", "m", Range::kNotNegative, kRequired},
                 {"stiffness", "N/m", Range::kPositive, kRequired},
@@ -59,8 +60,8 @@ std::vector<SettingInfo> localElementSettings() {
           rows("cubic_springs", "to the ground, a force stiffness r^3 towards the middle",
                {node, {"stiffness", "N/m^3", Range::kAny, kRequired}}),
           rows("squeeze_films",
-               "dampers: a short film around what does not turn, the last of the node's pedestals "
-               "where it has any",
+               "squeeze-film dampers (short film), between ground and the last of the node's "
+               "pedestals where it has any",
                {node,
                 {"length", "m", Range::kPositive, kRequired},
                 {"diameter", "m", Range::kPositive, kRequired},

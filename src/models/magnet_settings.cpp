@@ -12,11 +12,10 @@
 namespace whirl_twin {
 
 SettingInfo magnetsSetting(std::vector<ColumnInfo> first, const std::string& inputs) {
-  SettingInfo info{
-      "magnets", SettingKind::kTable, "",
-      "magnetic bearings, for small motions a force ki current + ks displacement: by ks, "
-      "or by bias and gap, of which it follows; inputs " +
-          inputs + " [A]"};
+  SettingInfo info{"magnets", SettingKind::kTable, "",
+                   "active magnetic bearings, linearized force ki current + ks displacement: give "
+                   "ks, or bias and gap; inputs " +
+                       inputs + " [A]"};
   info.columns = std::move(first);
   info.columns.insert(info.columns.end(), {{"ki", "N/A", Range::kPositive, kRequired},
                                            {"ks", "N/m", Range::kNotNegative, 0.0},
@@ -42,7 +41,7 @@ RotorMagnet rotorMagnet(const TableRow& row, const std::string& key) {
       }
     }
     if (!(magnet.ks > 0.0)) {
-      throw SetupError(key + ".ks", "must be > 0 N/m, unless bias and gap give it");
+      throw SetupError(key + ".ks", "must be > 0 N/m, unless bias and gap are given");
     }
     return magnet;
   }
@@ -50,16 +49,19 @@ RotorMagnet rotorMagnet(const TableRow& row, const std::string& key) {
     throw SetupError(key + ".bias", "must be > 0 A with gap");
   }
   if (magnet.ks > 0.0) {
-    throw SetupError(key + ".ks", fmt::format("must not be given with gap: it is ki bias / gap = "
-                                              "{:.6g} N/m, found {:.6g}",
-                                              magnet.ki * magnet.bias / magnet.gap, magnet.ks));
+    throw SetupError(
+        key + ".ks",
+        fmt::format(
+            "must not be given with gap, which gives ki bias / gap = {:.6g} N/m, found {:.6g}",
+            magnet.ki * magnet.bias / magnet.gap, magnet.ks));
   }
   const double of_bias = 0.25 * magnet.ki * magnet.bias;
   if (magnet.saturation > 0.0 && !(magnet.saturation > of_bias)) {
-    throw SetupError(key + ".saturation",
-                     fmt::format("must be > ki bias / 4 = {:.6g} N, what a pole pulls with at its "
-                                 "bias, found {:.6g}",
-                                 of_bias, magnet.saturation));
+    throw SetupError(
+        key + ".saturation",
+        fmt::format(
+            "must be > ki bias / 4 = {:.6g} N, the force of a pole at its bias, found {:.6g}",
+            of_bias, magnet.saturation));
   }
   magnet.ks = magnet.ki * magnet.bias / magnet.gap;
   return magnet;

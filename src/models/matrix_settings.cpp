@@ -77,8 +77,8 @@ bool hasMassInEveryMotion(const MatrixXd& mass) {
 
 void requirePositiveDefinite(const MatrixXd& mass, const std::vector<std::string>& names) {
   const std::string expected =
-      "must be positive definite: a coordinate or combination without mass has no motion of its "
-      "own; "
+      "must be positive definite: a coordinate or combination without mass has no independent "
+      "motion; "
       "found ";
   Index i = 0;
   if (const double least = mass.diagonal().minCoeff(&i); !(least > 0.0)) {

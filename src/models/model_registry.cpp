@@ -48,11 +48,10 @@ const std::vector<ModelInfo>& builtInModels() {
 /// Why a model of the source cannot join `list`; "" if it can.
 std::string objection(const ModelInfo& model, const std::vector<ModelInfo>& list) {
   if (model.name.empty() || model.variants.empty() || !model.setUp) {
-    return "model '" + model.name +
-           "' is left out: it has no name, no form or nothing to set it up";
+    return "model '" + model.name + "' is not registered: it has no name, variant or setup";
   }
   if (find(list, model.name) != nullptr) {
-    return "model '" + model.name + "' is left out: there is a model of that name already";
+    return "model '" + model.name + "' is not registered: duplicate name";
   }
   return "";
 }
@@ -136,10 +135,10 @@ IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes) {
     return {"exponential", "linear: the exact step, from a table over the drive's speeds"};
   }
   if (dynamics.linear() && !dynamics.speedDependent()) {
-    return {"exponential", "linear with matrices that do not change with speed: exact free motion"};
+    return {"exponential", "linear with constant matrices: exact free motion"};
   }
   if (dynamics.linear()) {
-    return {"gauss_legendre_6", "its matrices change with the drive's speed"};
+    return {"gauss_legendre_6", "its matrices depend on the drive's speed"};
   }
   const bool exact_rest = setup.exact_run_ups;
   if (exact_rest && !dynamics.hasShaft()) {
@@ -159,8 +158,8 @@ std::string integratorObjection(const ModelSetup& setup, bool on_drive,
   const auto& multistep = kStoermerSchemes;
   if (!suits && std::any_of(multistep.begin(), multistep.end(),
                             [&](const StoermerScheme& s) { return integrator == s.name; })) {
-    return integrator + " is for models from energies; " + setup.dynamics->model() +
-           " is given by its matrices: exponential steps it exactly";
+    return integrator + " is for models defined by energies; " + setup.dynamics->model() +
+           " is defined by matrices: use exponential, the exact step";
   }
   if (integrator != "exponential") {
     return "";
@@ -169,8 +168,8 @@ std::string integratorObjection(const ModelSetup& setup, bool on_drive,
     return "exponential is for linear systems; " + setup.dynamics->model() + " is not linear";
   }
   if (on_drive && setup.dynamics->speedDependent() && !setup.exact_run_ups) {
-    return "exponential needs matrices that do not change with the drive's speed; "
-           "gauss_legendre_6 or runge_kutta_4 will do";
+    return "exponential needs matrices independent of the drive's speed; use gauss_legendre_6 or "
+           "runge_kutta_4";
   }
   return "";
 }

@@ -35,8 +35,8 @@ ParameterValues withShaft(ParameterValues values, const Settings& settings) {
     }
     if (k11 != 0.0 || k12 != 0.0 || k22 != 0.0) {
       throw SetupError("overhung",
-                       "is the shaft already: leave out stiffness_displacement, "
-                       "stiffness_coupling and stiffness_rotation");
+                       "must not be given with stiffness_displacement, stiffness_coupling and "
+                       "stiffness_rotation");
     }
     const double l = overhung->second.front().numbers.at("length");
     const double ei = overhung->second.front().numbers.at("bending_stiffness");
@@ -49,15 +49,15 @@ ParameterValues withShaft(ParameterValues values, const Settings& settings) {
   }
   if (!(k11 > 0.0)) {
     throw SetupError("stiffness_displacement",
-                     "must be > 0 N/m, unless the shaft is overhung or magnets hold the rotor");
+                     "must be > 0 N/m, unless the shaft is overhung or supported by magnets");
   }
   if (!(k22 > 0.0)) {
     throw SetupError("stiffness_rotation", "must be > 0 N m, unless the shaft is overhung");
   }
   if (!(k12 * k12 < k11 * k22)) {
     throw SetupError("stiffness_coupling",
-                     "its square must be less than stiffness_displacement x stiffness_rotation: "
-                     "no shaft has such a stiffness");
+                     "its square must be less than stiffness_displacement x stiffness_rotation, as "
+                     "that of every shaft is");
   }
   return values;
 }
@@ -87,21 +87,21 @@ ModelInfo rigidDiscRotorInfo() {
   info.takes_motor = true;
   info.variants.push_back(variant<TurningRigidDiscRotor>("frame: rotating"));
   info.variants.push_back(spinningVariant<RigidDiscRotor>("a motor"));
-  info.settings.push_back(choiceOf("frame", "of the coordinates: fixed, or turning with the shaft",
+  info.settings.push_back(choiceOf("frame", "of the coordinates: fixed, or rotating with the shaft",
                                    {"fixed", "rotating"}));
   info.settings.push_back(choiceOf(
       "gravity_on_shaft", "the scene's gravity acts on the rotor, along -y", {"false", "true"}));
   const double needed = std::nan("");
-  info.settings.push_back({"overhung",
-                           SettingKind::kTable,
-                           "",
-                           "a shaft clamped at one end, the disc at the other, instead of the "
-                           "three stiffnesses",
-                           {},
-                           false,
-                           {{"length", "m", Range::kPositive, needed},
-                            {"bending_stiffness", "N m^2", Range::kPositive, needed}},
-                           {}});
+  info.settings.push_back(
+      {"overhung",
+       SettingKind::kTable,
+       "",
+       "a shaft clamped at one end with the disc at the other, replaces the three stiffnesses",
+       {},
+       false,
+       {{"length", "m", Range::kPositive, needed},
+        {"bending_stiffness", "N m^2", Range::kPositive, needed}},
+       {}});
   info.settings.push_back(magnetsSetting({{"position", "m", Range::kAny, 0.0}},
                                          "current_x_1, current_y_1, current_x_2 ... in order"));
   info.setUp = [](const ParameterValues& values, const Settings& settings,
@@ -110,11 +110,11 @@ ModelInfo rigidDiscRotorInfo() {
     const double asymmetry = values.at("stiffness_asymmetry");
     if (asymmetry > 0.0 && !turning) {
       throw SetupError("stiffness_asymmetry",
-                       "needs frame: rotating, where the matrices of a shaft that is not round are "
+                       "needs frame: rotating, where the matrices of an asymmetric shaft are "
                        "constant");
     }
     if (!(asymmetry < 1.0)) {
-      throw SetupError("stiffness_asymmetry", "must be < 1: beyond, the shaft has no stiffness");
+      throw SetupError("stiffness_asymmetry", "must be < 1 for a positive stiffness");
     }
     const bool heavy = choice(settings, "gravity_on_shaft", "false") == "true";
     const ParameterValues complete = withShaft(values, settings);
@@ -124,7 +124,7 @@ ModelInfo rigidDiscRotorInfo() {
         throw SetupError("frame", "must be fixed with a motor");
       }
       if (!magnetRows(settings).empty()) {
-        throw SetupError("magnets", "need frame: fixed, where they stand");
+        throw SetupError("magnets", "need frame: fixed");
       }
       return setUp<TurningRigidDiscRotor>(complete, gravity);
     }

@@ -27,17 +27,12 @@ std::vector<ParameterInfo> materialParameters() {
            "of the shaft; 0: youngs_modulus / 2 (1 + poissons_ratio)", 0.0, ""},
           {"poissons_ratio", "-", Range::kNotNegative, "of the shaft, without shear_modulus",
            kUsualPoissonsRatio, ""},
-          {"density",
-           "kg/m^3",
-           Range::kNotNegative,
-           "of the shaft; 0: without mass, which the discs have",
-           {},
-           ""}};
+          {"density", "kg/m^3", Range::kNotNegative, "of the shaft; 0: massless shaft", {}, ""}};
 }
 
 SettingInfo materialsSetting() {
   SettingInfo info{"materials", SettingKind::kTable, "",
-                   "by names, for elements, sleeves and discs that are not of the shaft's"};
+                   "named materials for elements, sleeves and discs that differ from the shaft's"};
   info.columns = {{"youngs_modulus", "Pa", Range::kPositive, kRequired},
                   {"shear_modulus", "Pa", Range::kNotNegative, 0.0},
                   {"poissons_ratio", "-", Range::kNotNegative, kUsualPoissonsRatio},
@@ -54,7 +49,8 @@ ShaftMaterials::ShaftMaterials(const ParameterValues& values, const Settings& se
     const std::string key = fmt::format("materials[{}]", i);
     const std::string& name = rows[i].words.at("name");
     if (!named_.emplace(name, material(rows[i].numbers, key)).second) {
-      throw SetupError(key + ".name", fmt::format("stands twice, found '{}'", name));
+      throw SetupError(key + ".name",
+                       fmt::format("duplicate: material '{}' is already defined", name));
     }
   }
 }
@@ -89,15 +85,15 @@ ShaftMaterial ShaftMaterials::material(const std::map<std::string, double>& numb
   const double given = numbers.at("shear_modulus");
   if (given > 0.0 &&
       !(given >= kLeastShear * youngs_modulus && given <= kMostShear * youngs_modulus)) {
-    throw SetupError(below(key, "shear_modulus"),
-                     fmt::format("must be in Pa, some {:.3g} Pa with this youngs_modulus, found {}",
-                                 youngs_modulus / (2.0 * (1.0 + kUsualPoissonsRatio)), given));
+    throw SetupError(
+        below(key, "shear_modulus"),
+        fmt::format("must be in Pa, about {:.3g} Pa with this youngs_modulus, found {}",
+                    youngs_modulus / (2.0 * (1.0 + kUsualPoissonsRatio)), given));
   }
   if (given > 0.0 && !(given >= youngs_modulus / 3.0 && given <= youngs_modulus / 2.0)) {
-    notes_.push_back(
-        fmt::format("{} = {:.4g} Pa is outside youngs_modulus / 3 ... / 2, where it "
-                    "is of any material that is alike along all directions",
-                    below(key, "shear_modulus"), given));
+    notes_.push_back(fmt::format(
+        "{} = {:.4g} Pa is outside youngs_modulus / 3 ... / 2, the range of isotropic materials",
+        below(key, "shear_modulus"), given));
   }
   return {youngs_modulus, given > 0.0 ? given : youngs_modulus / (2.0 * (1.0 + poissons_ratio)),
           numbers.at("density"), shear_deformation_};

@@ -32,10 +32,12 @@ BearingCoefficients withMass(BearingCoefficients b, const TableRow& row, const s
   b.mxy = row.numbers.at("mxy");
   b.myy = row.numbers.at("myy");
   if (!(b.mxy * b.mxy <= b.mxx * b.myy)) {
-    throw SetupError(key + ".mxy",
-                     fmt::format("must be a mass matrix's, mxy^2 <= mxx myy = {:.6g} kg^2, found "
-                                 "{}",
-                                 b.mxx * b.myy, b.mxy));
+    throw SetupError(
+        key + ".mxy",
+        fmt::format(
+            "must give a positive semidefinite mass matrix, mxy^2 <= mxx myy = {:.6g} kg^2, found "
+            "{}",
+            b.mxx * b.myy, b.mxy));
   }
   return b;
 }
@@ -60,7 +62,7 @@ std::vector<std::vector<BearingRow>> speedTables(const Settings& settings, const
     const std::string key = fmt::format("{}[{}]", name, i);
     if (count == 0) {
       throw SetupError(fmt::format("{}.{}", key, of),
-                       fmt::format("there is no row in {}s that it could be of", of));
+                       fmt::format("needs a row in {}s to refer to", of));
     }
     const auto which =
         static_cast<std::size_t>(indexIn(rows[i], key, of, static_cast<int>(count) - 1));
@@ -96,15 +98,16 @@ std::optional<RigidSupport> rigidSupport(const TableRow& row, int node, bool ove
   }
   const char* what = clamps ? "clamp" : "pin";
   if (pins && clamps) {
-    throw SetupError(key, "must give pin or clamp, not both: a clamp holds what a pin holds");
+    throw SetupError(key, "must give pin or clamp, not both: a clamp includes a pin");
   }
   if (over_speed) {
-    throw SetupError(key, fmt::format("a {} is rigid: it has no rows in bearing_tables", what));
+    throw SetupError(
+        key, fmt::format("must not have rows in bearing_tables, because a {} is rigid", what));
   }
   for (const auto& [name, value] : row.numbers) {
     if (name != "node" && value != 0.0) {
       throw SetupError(fmt::format("{}.{}", key, name),
-                       fmt::format("a {} is rigid: it has no {}, found {}", what, name, value));
+                       fmt::format("a {} is rigid: must not have {}, found {}", what, name, value));
     }
   }
   return RigidSupport{node, clamps};
@@ -123,8 +126,8 @@ void requireRigidAlone(const Settings& settings, const FlexibleShaft& shaft) {
     const auto same = std::count_if(shaft.rigid_supports.begin(), shaft.rigid_supports.end(), here);
     if (same > 1 || others(shaft.bearings) || others(shaft.speed_bearings) || by_element) {
       throw SetupError("bearings",
-                       fmt::format("node {} is held rigidly by a pin or clamp: no other bearing, "
-                                   "film, magnet, spring or rub can act on the shaft there",
+                       fmt::format("node {} has a pin or clamp: no other bearing, film, magnet, "
+                                   "spring or rub can act on the shaft there",
                                    node));
     }
   }
@@ -180,8 +183,8 @@ void addPedestals(const Settings& settings, FlexibleShaft& shaft) {
     const int node = indexIn(rows[i], key, "node", shaft.nodes() - 1);
     const auto here = [node](const auto& each) { return each.node == node; };
     if (std::any_of(magnets.begin(), magnets.end(), here)) {
-      throw SetupError(key + ".node", fmt::format("must have no magnet, whose force is one between "
-                                                  "shaft and ground, found {}",
+      throw SetupError(key + ".node", fmt::format("must be a node without a magnet, whose force "
+                                                  "acts between shaft and ground, found {}",
                                                   node));
     }
     if (std::none_of(shaft.bearings.begin(), shaft.bearings.end(), here) &&
@@ -190,9 +193,7 @@ void addPedestals(const Settings& settings, FlexibleShaft& shaft) {
         std::none_of(elements.begin(), elements.end(), [node](const NodeElement& element) {
           return element.node == node && element.between == NodeElement::Between::kShaftAndPedestal;
         })) {
-      throw SetupError(
-          key + ".node",
-          fmt::format("must be one with a bearing, which stands on it, found {}", node));
+      throw SetupError(key + ".node", fmt::format("must be a node with a bearing, found {}", node));
     }
     for (const char* mass : {"mass", "mass_y"}) {
       if (!(n.at(mass) > 0.0)) {
@@ -245,36 +246,35 @@ std::vector<SettingInfo> supportSettings() {
                                  {"mxy", "kg", Range::kAny, 0.0}});
   SettingInfo bearings =
       rows("bearings",
-           "by eight coefficients, and the mass that a film adds; kyy, cyy, myy as kxx, cxx, mxx "
-           "unless they are given; pin: true instead of coefficients: rigid; clamp: true: rigid, "
-           "and holds the slope, too; none at all: the rotor floats",
+           "by eight coefficients and the added mass of a film; default of kyy, cyy, myy: kxx, "
+           "cxx, mxx; pin: true instead of coefficients: rigid; clamp: true: rigid, with the slope "
+           "fixed; no bearing at all: a free rotor",
            bearing);
   bearings.optional_words = {"pin", "clamp"};
-  return {
-      bearings,
-      rows("bearing_tables", "coefficients of bearings[bearing] over the shaft's speed",
-           coefficientColumns({{"bearing", "-", Range::kNotNegative, kRequired},
-                               {"speed", "rad/s", Range::kAny, kRequired}})),
-      rows("journal_bearings",
-           "short plain bearings: by their eight coefficients under a load along -y, or, without "
-           "one, by their film wherever the journal is",
-           {node,
-            {"length", "m", Range::kPositive, kRequired},
-            {"diameter", "m", Range::kPositive, kRequired},
-            {"clearance", "m", Range::kPositive, kRequired},
-            {"viscosity", "Pa s", Range::kPositive, kRequired},
-            {"load", "N", Range::kNotNegative, 0.0}}),
-      rows("pedestals",
-           "that the bearings of a node stand on, by mass and eight coefficients; of several of "
-           "a node each stands on the next, the last on the ground",
-           coefficientColumns({node,
-                               {"mass", "kg", Range::kNotNegative, kRequired},
-                               {"mass_y", "kg", Range::kNotNegative, 0.0, "mass"}})),
-      rows("pedestal_tables",
-           "coefficients of pedestals[pedestal] over the shaft's speed, as of its frequency",
-           coefficientColumns({{"pedestal", "-", Range::kNotNegative, kRequired},
-                               {"speed", "rad/s", Range::kAny, kRequired}})),
-      magnetsSetting({node}, "current_x_NODE, current_y_NODE")};
+  return {bearings,
+          rows("bearing_tables", "coefficients of bearings[bearing] over the shaft's speed",
+               coefficientColumns({{"bearing", "-", Range::kNotNegative, kRequired},
+                                   {"speed", "rad/s", Range::kAny, kRequired}})),
+          rows("journal_bearings",
+               "short plain bearings: linearized (eight coefficients) under a load along -y, or, "
+               "without one, nonlinear film forces",
+               {node,
+                {"length", "m", Range::kPositive, kRequired},
+                {"diameter", "m", Range::kPositive, kRequired},
+                {"clearance", "m", Range::kPositive, kRequired},
+                {"viscosity", "Pa s", Range::kPositive, kRequired},
+                {"load", "N", Range::kNotNegative, 0.0}}),
+          rows("pedestals",
+               "supports of the bearings of a node, by mass and eight coefficients; several of a "
+               "node are in series, the last on the ground",
+               coefficientColumns({node,
+                                   {"mass", "kg", Range::kNotNegative, kRequired},
+                                   {"mass_y", "kg", Range::kNotNegative, 0.0, "mass"}})),
+          rows("pedestal_tables",
+               "coefficients of pedestals[pedestal] over the shaft's speed (synchronous frequency)",
+               coefficientColumns({{"pedestal", "-", Range::kNotNegative, kRequired},
+                                   {"speed", "rad/s", Range::kAny, kRequired}})),
+          magnetsSetting({node}, "current_x_NODE, current_y_NODE")};
 }
 
 void addSupports(const Settings& settings, FlexibleShaft& shaft) {
@@ -291,7 +291,7 @@ std::vector<NodeMagnet> nodeMagnets(const Settings& settings, int nodes) {
     const int node = indexIn(rows[i], key, "node", nodes - 1);
     if (std::any_of(magnets.begin(), magnets.end(),
                     [node](const NodeMagnet& other) { return other.node == node; })) {
-      throw SetupError(key + ".node", fmt::format("stands twice, found {}", node));
+      throw SetupError(key + ".node", fmt::format("duplicate: node {} already has one", node));
     }
     magnets.push_back({node, rotorMagnet(rows[i], key)});
   }

@@ -36,7 +36,7 @@ std::vector<std::string> followingNotes(const Settings& settings, const std::str
   std::vector<std::string> notes;
   for (const auto& [what, where] : rows) {
     notes.push_back(
-        fmt::format("{}, not being given ({}[{}]{})", what, name, where.front(),
+        fmt::format("{}, default ({}[{}]{})", what, name, where.front(),
                     where.size() > 1 ? fmt::format(" and {} more", where.size() - 1) : ""));
   }
   return notes;

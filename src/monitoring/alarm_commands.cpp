@@ -59,7 +59,8 @@ CommandAnswer acknowledge(const AlarmCommand& command, AlertList& alerts, const 
   });
   const bool all = command.system.empty() && command.type.empty();
   if (!any && !all) {
-    return refused(fmt::format("no alert {} of {}", command.type, systemText(command.system)));
+    return refused(
+        fmt::format("no active alert {} of {}", command.type, systemText(command.system)));
   }
   return {true, fmt::format("{} acknowledged",
                             alerts.acknowledge(command.system, command.type, sinceNow(by)))};
@@ -68,8 +69,8 @@ CommandAnswer acknowledge(const AlarmCommand& command, AlertList& alerts, const 
 CommandAnswer reset(TwinMonitor& monitor, const std::string& by) {
   AlertList& alerts = monitor.alerts();
   const std::size_t cleared = alerts.reset(monitor.time(), sinceNow(by));
-  return {true,
-          fmt::format("{} cleared, {} have their cause still", cleared, alerts.active().size())};
+  return {true, fmt::format("{} cleared, {} still active because their cause persists", cleared,
+                            alerts.active().size())};
 }
 
 CommandAnswer inhibit(const AlarmCommand& command, TwinMonitor& monitor, double wall_time,
@@ -80,12 +81,12 @@ CommandAnswer inhibit(const AlarmCommand& command, TwinMonitor& monitor, double 
   }
   const double lasts = monitor.inhibit(command.system, command.duration, wall_time, by).value();
   if (!(lasts > 0.0)) {
-    return {true, fmt::format("alerts of {} are raised", systemText(command.system))};
+    return {true, fmt::format("alerts of {} are no longer inhibited", systemText(command.system))};
   }
   const std::string most = lasts < command.duration
                                ? fmt::format(" (max_inhibition), not {:g} s", command.duration)
                                : "";
-  return {true, fmt::format("alerts of {} are held back for {:g} s{}", systemText(command.system),
+  return {true, fmt::format("alerts of {} are inhibited for {:g} s{}", systemText(command.system),
                             lasts, most)};
 }
 
@@ -99,11 +100,12 @@ CommandAnswer carryOut(const AlarmCommand& command, TwinMonitor& monitor, double
   }
   // Who names what a command does not speak of means another one.
   if (command.command != AlarmCommand::kInhibit && command.duration != 0.0) {
-    return refused(
-        fmt::format("duration: must be 0 but for an inhibition, found {:g}", command.duration));
+    return refused(fmt::format("duration: must be 0 except for command 3 (inhibit), found {:g}",
+                               command.duration));
   }
   if (command.command != AlarmCommand::kAcknowledge && !command.type.empty()) {
-    return refused(fmt::format("type: must be empty but to acknowledge, found {}", command.type));
+    return refused(fmt::format("type: must be empty except for command 1 (acknowledge), found {}",
+                               command.type));
   }
   switch (command.command) {
     case AlarmCommand::kAcknowledge:
@@ -111,9 +113,9 @@ CommandAnswer carryOut(const AlarmCommand& command, TwinMonitor& monitor, double
     case AlarmCommand::kReset:
       return command.system.empty()
                  ? reset(monitor, by)
-                 : refused(fmt::format("system: must be empty, a reset is one of all alarms, "
-                                       "found {}",
-                                       command.system));
+                 : refused(fmt::format(
+                       "system: must be empty, since command 2 resets all alarms, found {}",
+                       command.system));
     case AlarmCommand::kInhibit:
       return inhibit(command, monitor, wall_time, by);
     default:

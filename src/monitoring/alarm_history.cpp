@@ -203,8 +203,8 @@ bool AlarmHistory::isThere() const {
 
 bool AlarmHistory::fail(int error) {
   problem_ = fmt::format(
-      "{}: {}: the history of the alarms is not kept, what is active is written when it can be",
-      path_, error == 0 ? "cannot be written" : std::strerror(error));
+      "{}: {}: the alarm history is not saved; active alerts are written once it can be", path_,
+      error == 0 ? "cannot be written" : std::strerror(error));
   next_try_ = std::chrono::steady_clock::now() + kRetryPeriod;
   return false;
 }

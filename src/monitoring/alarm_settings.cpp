@@ -57,9 +57,10 @@ std::vector<std::string> settingErrors(const AlarmSettings& settings) {
   check("saturation_time", settings.saturation_time,
         settings.saturation_time == 0.0 || settings.saturation_time >= 1.0, "0, or >= 1 s");
   check("members_beyond", settings.members_beyond,
-        settings.members_beyond >= 0.0 && settings.members_beyond <= 1.0, "from 0 to 1 (a part)");
+        settings.members_beyond >= 0.0 && settings.members_beyond <= 1.0,
+        "from 0 to 1 (a fraction)");
   check("lowest_decay_rate", settings.lowest_decay_rate, std::isfinite(settings.lowest_decay_rate),
-        "a number of 1/s");
+        "a number in 1/s");
   positive("energy_residual", settings.energy_residual, "> 0 (dimensionless)");
   positive("data_timeout", settings.data_timeout, "> 0 s");
   check("decay_audit", settings.decay_audit,

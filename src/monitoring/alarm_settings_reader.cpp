@@ -68,7 +68,7 @@ AmplitudeLevels readLevels(const YAML::Node& node, const std::string& key, Compl
   for (std::size_t i = 1; i < levels.speed.size(); ++i) {
     if (levels.speed[i] <= levels.speed[i - 1]) {
       complaints.add(fmt::format("{}[{}]", map.key("speed"), i),
-                     fmt::format("must be above the one before, {:g} rad/s, found {:g}",
+                     fmt::format("must be greater than the one before, {:g} rad/s, found {:g}",
                                  levels.speed[i - 1], levels.speed[i]));
     }
   }
@@ -120,7 +120,7 @@ Voting readVoting(const YAML::Node& node, const std::string& key,
                                      "{}{}",
                                      quoted(name), hint(name, sources)));
     } else if (std::find(voting.of.begin(), voting.of.end(), name) != voting.of.end()) {
-      complaints.add(at, fmt::format("{} stands twice: nobody votes twice", name));
+      complaints.add(at, fmt::format("duplicate: {} is already in the list", name));
     }
     voting.of.push_back(name);
   }
@@ -217,7 +217,7 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
     const MapReader of(map.at(name), name, rotors, "rotor of the scene", complaints);
     for (const std::string& rotor : of.names()) {
       if (rotors.empty()) {
-        complaints.add(of.key(rotor), "the scene has no system with a whirl");
+        complaints.add(of.key(rotor), "needs a scene with a rotor, found none");
         continue;
       }
       read(rotor, of);

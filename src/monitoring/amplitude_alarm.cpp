@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "messages/alert_types.h"
+#include "monitoring/speed_text.h"
 
 namespace whirl_twin {
 AmplitudeAlarm::AmplitudeAlarm(std::string system, const AlarmSettings& settings)
@@ -46,8 +47,8 @@ void AmplitudeAlarm::update(double time, double amplitude, double speed, double 
   }
   if (alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kWhirlAmplitude, time,
-                 fmt::format("{}: vibration back to {:.3g} mm, speed {:.1f} rad/s", system_,
-                             1.0e3 * amplitude, speed));
+                 fmt::format("{}: vibration back to {:.3g} mm 0-peak at {}", system_,
+                             1.0e3 * amplitude, shaftSpeedText(speed)));
   } else if (alarm_.active() && isRaising(condition)) {
     const bool danger = condition == AlarmCondition::kDanger;
     state::Alert alert;
@@ -60,10 +61,11 @@ void AmplitudeAlarm::update(double time, double amplitude, double speed, double 
     alert.amplitude = amplitude;
     alert.amplitude_limit = danger ? danger_level : alert_level;
     alert.text = fmt::format(
-        "{}: vibration {:.3g} mm at {:.1f} rad/s, above the {} level {:.3g} mm{}: {}", system_,
-        1.0e3 * amplitude, speed, danger ? "danger" : "alert", 1.0e3 * alert.amplitude_limit,
-        by != 1.0 ? fmt::format(" (times {:g} in start-up)", by) : "",
-        danger ? "stop it, or leave this speed" : "look for what has grown, or leave this speed");
+        "{}: vibration {:.3g} mm 0-peak at {}, above the {} level {:.3g} mm{}: {}", system_,
+        1.0e3 * amplitude, shaftSpeedText(speed), danger ? "danger" : "alert",
+        1.0e3 * alert.amplitude_limit,
+        by != 1.0 ? fmt::format(" (multiplied by {:g} during start-up)", by) : "",
+        danger ? "stop the machine or change the speed" : "find the cause or change the speed");
     alerts.raise(std::move(alert), danger ? "danger" : "alert");
   }
 }

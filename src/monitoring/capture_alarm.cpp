@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "algebra/constants.h"
 #include "messages/alert_types.h"
+#include "monitoring/speed_text.h"
 
 namespace whirl_twin {
 namespace {
@@ -57,8 +57,9 @@ void CaptureAlarm::update(const state::DriveState& shaft, const std::vector<Capt
     condition = still && near ? AlarmCondition::kDanger : condition;
   }
   if (alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
-    alerts.clear(system_, alert_type::kSommerfeldCapture, time,
-                 fmt::format("{}: its motor has passed, speed {:.1f} rad/s", system_, speed));
+    alerts.clear(
+        system_, alert_type::kSommerfeldCapture, time,
+        fmt::format("{}: the resonance was passed, speed {}", system_, shaftSpeedText(speed)));
   } else if (alarm_.active() && isRaising(condition)) {
     state::Alert alert;
     alert.type = alert_type::kSommerfeldCapture;
@@ -68,19 +69,17 @@ void CaptureAlarm::update(const state::DriveState& shaft, const std::vector<Capt
     alert.speed = speed;
     alert.acceleration = shaft.acceleration;
     alert.critical_speed = ahead->critical_speed;
-    const std::string where =
-        fmt::format("critical speed {:.1f} rad/s ({:.0f} rpm)", ahead->critical_speed,
-                    ahead->critical_speed * 30.0 / kPi);
+    const std::string where = "critical speed " + shaftSpeedText(ahead->critical_speed);
     const bool danger = alarm_.severity() == state::Severity::kDanger;
-    alert.text = danger
-                     ? fmt::format(
-                           "{}: captured near {:.1f} rad/s by {}: all its motor gives goes into "
-                           "the whirl: cut the motor, or give it more torque",
-                           system_, ahead->speed, where)
-                     : fmt::format(
-                           "{}: its motor gives less torque than {} takes, it will hang at {:.1f} "
-                           "rad/s: stay below {:.1f} rad/s, or give it more torque",
-                           system_, where, ahead->speed, ahead->band.from);
+    alert.text = danger ? fmt::format(
+                              "{}: resonance capture near {} by {}: the whirl absorbs all the "
+                              "motor's torque: switch the motor off or raise its torque",
+                              system_, shaftSpeedText(ahead->speed), where)
+                        : fmt::format(
+                              "{}: the motor has less torque than {} needs, resonance capture at "
+                              "{} expected: stay below {} or raise the torque",
+                              system_, where, shaftSpeedText(ahead->speed),
+                              shaftSpeedText(ahead->band.from));
     alerts.raise(std::move(alert), fmt::format("capture {}", ahead - captures.begin()));
   }
 }

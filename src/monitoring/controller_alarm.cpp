@@ -27,8 +27,7 @@ void ControllerAlarm::update(double time, bool lost, AlertList& alerts) {
     alert.severity = alarm_.severity();
     alert.time = time;
     alert.text = fmt::format(
-        "controller {}: no answer from its process within its time-out; it does what on_timeout "
-        "says",
+        "controller {}: no answer from its process within its timeout; on_timeout applies",
         controller_);
     alerts.raise(std::move(alert), "no answer");
   }

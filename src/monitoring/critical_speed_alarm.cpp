@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "algebra/constants.h"
 #include "messages/alert_types.h"
+#include "monitoring/speed_text.h"
 
 namespace whirl_twin {
 namespace {
@@ -25,8 +25,7 @@ bool isEmpty(const state::CriticalSpeedMargin& critical) {
 }
 
 std::string criticalSpeedText(const state::CriticalSpeedMargin& critical) {
-  return fmt::format("critical speed {:.1f} rad/s ({:.0f} rpm)", critical.speed,
-                     critical.speed * 30.0 / kPi);
+  return "critical speed " + shaftSpeedText(critical.speed);
 }
 
 /// A cause that is back a moment after its alarm has cleared is a repeat, until it lasts as long as
@@ -36,7 +35,8 @@ ConditionAlarm::Repeats repeatsOf(const AlarmSettings& settings) {
 }
 
 std::string bandText(const state::CriticalSpeedMargin& critical) {
-  return fmt::format("between {:.1f} and {:.1f} rad/s", critical.band_low, critical.band_high);
+  return fmt::format("between {} and {}", shaftSpeedText(critical.band_low),
+                     shaftSpeedText(critical.band_high));
 }
 
 }  // namespace
@@ -130,8 +130,9 @@ void CriticalSpeedAlarm::updateBand(const state::DriveState& shaft,
     condition = dwells ? AlarmCondition::kDanger : AlarmCondition::kWarning;
   }
   if (band_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
-    alerts.clear(system_, alert_type::kInCriticalBand, time,
-                 fmt::format("{}: left the critical band, speed {:.1f} rad/s", system_, speed));
+    alerts.clear(
+        system_, alert_type::kInCriticalBand, time,
+        fmt::format("{}: left the critical band, speed {}", system_, shaftSpeedText(speed)));
   } else if (occupied && band_alarm_.active()) {
     const state::CriticalSpeedMargin& critical = critical_speeds[*occupied];
     const bool danger = band_alarm_.severity() == state::Severity::kDanger;
@@ -140,7 +141,7 @@ void CriticalSpeedAlarm::updateBand(const state::DriveState& shaft,
     alert.severity = band_alarm_.severity();
     alert.text =
         // No live numbers: the latched list is published anew only when a decision changes.
-        danger ? fmt::format("{}: more than {:g} s near {}: leave the range {}", system_,
+        danger ? fmt::format("{}: longer than {:g} s near {}: leave the range {}", system_,
                              settings_.dwell_limit, criticalSpeedText(critical), bandText(critical))
                : fmt::format("{}: passing {}: do not dwell {}", system_,
                              criticalSpeedText(critical), bandText(critical));
@@ -177,14 +178,14 @@ void CriticalSpeedAlarm::updateApproach(const state::DriveState& shaft,
   }
   if (approach_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kCriticalSpeedApproach, time,
-                 fmt::format("{}: the move no longer reaches a critical band", system_));
+                 fmt::format("{}: the speed no longer approaches a critical band", system_));
   } else if (imminent && approach_alarm_.active()) {
     const state::CriticalSpeedMargin& critical = critical_speeds[entry->place.index];
     const double speed = std::abs(shaft.speed);
     state::Alert alert = alertAbout(shaft, critical);
     alert.type = alert_type::kCriticalSpeedApproach;
     alert.severity = approach_alarm_.severity();
-    std::string when = fmt::format("close to {:.1f} rad/s", speed);
+    std::string when = fmt::format("close to {}", shaftSpeedText(speed));
     if (entry->time < kLongestCountdown) {
       alert.time_to_entry = entry->time;
       when = fmt::format("band entered in {:.1f} s at {:.3g} rad/s^2", entry->time,

@@ -56,14 +56,14 @@ void DataLostAlarm::tick(double wall_time, double time, bool paused, AlertList& 
   const bool lost = silence > timeout_ && !paused;
   const AlarmCondition condition = lost ? AlarmCondition::kWarning : AlarmCondition::kClear;
   if (everybody_.update(wall_time, condition) == ConditionAlarm::Change::kCleared) {
-    alerts.clear(alert_type::kEverybody, alert_type::kDataLost, time, "states arrive again");
+    alerts.clear(alert_type::kEverybody, alert_type::kDataLost, time, "states are received again");
   } else if (everybody_.active() && lost) {
     state::Alert alert;
     alert.system = alert_type::kEverybody;
     alert.type = alert_type::kDataLost;
     alert.severity = everybody_.severity();
     alert.time = time;
-    alert.text = "no states arrive at all: nothing is being watched";
+    alert.text = "no states are received: nothing is monitored";
     alerts.raise(std::move(alert), "all data lost");
   }
 }
@@ -79,15 +79,16 @@ void DataLostAlarm::judge(Watch& watch, double wall_time, double time, AlertList
   }
   if (watch.alarm.update(wall_time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(watch.system, alert_type::kDataLost, time,
-                 fmt::format("{}: states arrive again", watch.system));
+                 fmt::format("{}: states are received again", watch.system));
   } else if (watch.alarm.active() && isRaising(condition)) {
     state::Alert alert;
     alert.system = watch.system;
     alert.type = alert_type::kDataLost;
     alert.severity = watch.alarm.severity();
     alert.time = time;
-    alert.text = fmt::format("{}: no state for {:.1f} s of wall time while others go on",
-                             watch.system, silence);
+    alert.text =
+        fmt::format("{}: no state for {:.1f} s of wall time, while those of other systems arrive",
+                    watch.system, silence);
     alerts.raise(std::move(alert), "data lost");
   }
 }

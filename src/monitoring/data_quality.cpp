@@ -40,8 +40,8 @@ bool DataQuality::take(const state::WhirlState& whirl, double wall_time) {
     }
   }
   if (whirl.radius > range_) {
-    return take(fmt::format("out of range: whirl {:.3g} mm, beyond {:.3g} mm", 1.0e3 * whirl.radius,
-                            1.0e3 * range_),
+    return take(fmt::format("out of range: whirl {:.3g} mm 0-peak, above {:.3g} mm",
+                            1.0e3 * whirl.radius, 1.0e3 * range_),
                 wall_time);
   }
   return take(stuck(whirl), wall_time);
@@ -82,7 +82,7 @@ bool DataQuality::isStale(double wall_time) const {
 
 std::string DataQuality::notOk(double wall_time, bool paused) const {
   if (!heard()) {
-    return "stale: nothing has come yet";
+    return "stale: no state received yet";
   }
   if (isStale(wall_time) && !paused) {
     return fmt::format("stale: no state for {:.1f} s", wall_time - heard_at_);

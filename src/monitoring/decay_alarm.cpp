@@ -10,6 +10,7 @@
 #include "analysis/routh.h"
 #include "control/shaft_angle.h"
 #include "messages/alert_types.h"
+#include "monitoring/speed_text.h"
 
 namespace whirl_twin {
 
@@ -55,7 +56,7 @@ void DecayAlarm::update(const state::WhirlState& whirl, AlertList& alerts) {
     if (alarm_.active()) {
       alarm_.clearNow();
       alerts.clear(system_, alert_type::kModelMismatch, whirl.at.time,
-                   fmt::format("{}: its decay is no longer measured", system_));
+                   fmt::format("{}: its decay rate is no longer measured", system_));
     }
     return;
   }
@@ -85,9 +86,10 @@ void DecayAlarm::judge(const AuditedDecay& measured, double speed, AlertList& al
     condition = AlarmCondition::kClear;
   }
   const std::string rates = fmt::format(
-      "at {:.1f} rad/s its vibration of {:.1f} rad/s decays with {:.3g} +- {:.2g} 1/s, "
-      "the model with {:.3g} 1/s",
-      speed, std::fabs(measured.frequency), measured.decay_rate, measured.deviation, model_);
+      "at {} the mode at {:.1f} rad/s has a decay rate of {:.3g} +- {:.2g} 1/s, in the model "
+      "{:.3g} 1/s",
+      shaftSpeedText(speed), std::fabs(measured.frequency), measured.decay_rate, measured.deviation,
+      model_);
   if (alarm_.update(measured.time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kModelMismatch, measured.time,
                  fmt::format("{}: {}", system_, rates));
@@ -99,10 +101,9 @@ void DecayAlarm::judge(const AuditedDecay& measured, double speed, AlertList& al
     alert.time = measured.time;
     alert.speed = speed;
     alert.decay_rate = measured.decay_rate;
-    alert.text = fmt::format("{}: {}: margins are those of a model that is not this machine; {}",
-                             system_, rates,
-                             measured.decay_rate < model_ ? "it is nearer to its threshold"
-                                                          : "look for what has changed");
+    alert.text = fmt::format(
+        "{}: {}: the margins of the model do not apply to the machine; {}", system_, rates,
+        measured.decay_rate < model_ ? "it is closer to instability" : "find out what changed");
     alerts.raise(std::move(alert), measured.decay_rate < model_ ? "less" : "more");
   }
 }

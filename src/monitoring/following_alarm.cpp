@@ -30,9 +30,9 @@ AlarmCondition statisticCondition(double value, double at, double least, double 
 const char* channelStatusText(state::ChannelStatus status) {
   switch (status) {
     case state::ChannelStatus::kSilent:
-      return "is silent";
+      return "has no new samples";
     case state::ChannelStatus::kRefused:
-      return "is refused: too far from what is predicted";
+      return "is rejected: too far from its prediction";
     case state::ChannelStatus::kInvalid:
       return "is invalid or not finite";
     default:
@@ -87,27 +87,28 @@ void FollowingAlarm::updateMismatch(const state::FollowState& follow, bool told,
   const AlarmCondition condition = isRaising(size) || isRaising(lasting) ? AlarmCondition::kWarning
                                    : size == lasting                     ? size
                                                                          : AlarmCondition::kHold;
-  const std::string squares = fmt::format(
-      "the mean square of its residuals is {:.3g} of what the model says", follow.mismatch);
+  const std::string squares =
+      fmt::format("normalized innovation squared (NIS) {:.3g}, expected 1", follow.mismatch);
   if (mismatch_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     if (!told) {
       alerts.clear(system_, alert_type::kModelMismatch, time,
-                   fmt::format("{}: {}, and they do not last", system_, squares));
+                   fmt::format("{}: {}, innovations white", system_, squares));
     }
   } else if (mismatch_alarm_.active() && isRaising(condition) && !told) {
     state::Alert alert = alertOf(alert_type::kModelMismatch, time, mismatch_alarm_);
     const bool more = follow.mismatch > follow.mismatch_limit;
     if (isRaising(size)) {
-      alert.text = fmt::format(
-          "{}: {}, {} {:.3g}: {}", system_, squares, more ? "above" : "below",
-          more ? follow.mismatch_limit : follow.mismatch_least,
-          more ? "it is moved by what the model has not; look at SENSOR and DRIFT, then fit it anew"
-               : "it has less noise than the model was told; see whether a signal is stuck, else "
-                 "give smaller deviations");
+      alert.text =
+          fmt::format("{}: {}, {} the limit {:.3g}: {}", system_, squares, more ? "above" : "below",
+                      more ? follow.mismatch_limit : follow.mismatch_least,
+                      more ? "the model lacks something that moves the machine; check SENSOR and "
+                             "DRIFT, then fit the model again"
+                           : "the noise is lower than specified; check for a stuck signal, else "
+                             "reduce the standard deviations");
     } else {
       alert.text = fmt::format(
-          "{}: its residuals last from sample to sample, by {:.2g}, beyond {:.2g}: the model "
-          "predicts wrongly in a way that lasts; look at DRIFT, then fit it anew",
+          "{}: autocorrelation of the innovations {:.2g}, limit {:.2g}: the model has a persistent "
+          "error; check DRIFT, then fit the model again",
           system_, follow.whiteness, follow.whiteness_limit);
     }
     alerts.raise(std::move(alert), !isRaising(size) ? "lasting" : more ? "more" : "less");
@@ -123,7 +124,7 @@ void FollowingAlarm::updateDrift(const state::FollowState& follow, AlertList& al
                                                                     : AlarmCondition::kClear;
   if (drift_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kDrift, time,
-                 fmt::format("{}: its parameters are where they were", system_));
+                 fmt::format("{}: its parameters are back at their reference", system_));
   } else if (drift_alarm_.active() && drifting) {
     std::string unit;
     for (std::size_t i = 0; i < follow.parameter.size(); ++i) {
@@ -137,9 +138,8 @@ void FollowingAlarm::updateDrift(const state::FollowState& follow, AlertList& al
         from != 0.0 ? fmt::format(" ({:+.2g} %)", 100.0 * (to - from) / std::fabs(from)) : "";
     state::Alert alert = alertOf(alert_type::kDrift, time, drift_alarm_);
     alert.text = fmt::format(
-        "{}: {} has gone from {:.4g} to {:.4g}{}{} since {:.1f} s: the machine is another; look "
-        "for "
-        "what has changed there, and judge its margins by the estimated value",
+        "{}: {} changed from {:.4g} to {:.4g}{}{} since {:.1f} s: inspect the machine, and use the "
+        "estimated value for its margins",
         system_, follow.drift_parameter, from, to, unit, part, follow.drift_since);
     alerts.raise(std::move(alert), follow.drift_parameter + (to > from ? " up" : " down"));
   }
@@ -154,14 +154,14 @@ std::map<std::string, std::string> FollowingAlarm::wrong(const state::FollowStat
     }
   }
   if (has_shaft_ && !follow.shaft_known) {
-    wrong["the shaft's angle"] = "is not known; look at the keyphasor";
+    wrong["the shaft's angle"] = "is unknown; check the keyphasor";
   }
   if (clock_offset_ > 0.0 && std::fabs(follow.clock_offset) > clock_offset_) {
     wrong["the machine's clock"] =
-        fmt::format("is off by {:+.3g} s, more than {:g} s", follow.clock_offset, clock_offset_);
+        fmt::format("has an offset of {:+.3g} s, limit {:g} s", follow.clock_offset, clock_offset_);
   } else if (clock_drift_ > 0.0 && std::fabs(follow.clock_drift) > clock_drift_) {
-    wrong["the machine's clock"] = fmt::format("gains {:+.3g} s in a second, more than {:g}",
-                                               follow.clock_drift, clock_drift_);
+    wrong["the machine's clock"] =
+        fmt::format("drifts by {:+.3g} s/s, limit {:g}", follow.clock_drift, clock_drift_);
   }
   return wrong;
 }
@@ -193,7 +193,7 @@ void FollowingAlarm::updateSensors(const state::FollowState& follow, AlertList& 
     constexpr std::size_t kLongest = 800;  // bytes, of the 1000 that a message has
     const bool whole = text.size() <= kLongest;
     alert.text =
-        fmt::format("{}: {}{}: what is estimated is less certain meanwhile", system_,
+        fmt::format("{}: {}{}: the estimate is less certain", system_,
                     whole ? text : text.substr(0, text.rfind(';', kLongest)), whole ? "" : " ...");
     alerts.raise(std::move(alert), which);
   }

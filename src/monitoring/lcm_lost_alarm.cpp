@@ -31,8 +31,8 @@ void LcmLostAlarm::update(double wall_time, double time, std::uint64_t failed, A
     alert.severity = alarm_.severity();
     alert.time = time;
     alert.text = fmt::format(
-        "LCM could not send {} messages, {} since the twin was started: logs and listeners on LCM "
-        "miss them; is the network's route for multicast there?",
+        "LCM could not send {} messages, {} since the twin was started: LCM logs and subscribers "
+        "miss them; check the multicast route",
         lost, failed);
     alerts.raise(std::move(alert), "LCM");
   }

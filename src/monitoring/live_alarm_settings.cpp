@@ -66,7 +66,7 @@ void applyChange(const MapReader& change, YAML::Node present, bool outermost,
                              name == "slow_roll";
     if (value.IsNull()) {
       if (!before.IsDefined()) {
-        complaints.add(change.key(name), "is not set: there is nothing to take away");
+        complaints.add(change.key(name), "must be a setting in force to be removed, found none");
       }
       present.remove(name);
     } else if (outermost && has_entries && value.IsMap() && before.IsDefined() && before.IsMap()) {
@@ -103,7 +103,7 @@ void LiveAlarmSettings::change(const std::string& text) {
   const YAML::Node told = readYamlText(text, kSource, "settings of the monitor", "alarms");
   int left = kMaxChangedValues;
   if (!isTree(told, 0, left)) {
-    throw Refusal(fmt::format("{}: no settings: more than {} values, or {} in each other", kSource,
+    throw Refusal(fmt::format("{}: must have at most {} values, nested at most {} deep", kSource,
                               kMaxChangedValues, kDeepest));
   }
   Complaints complaints(kSource);

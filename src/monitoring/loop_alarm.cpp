@@ -14,12 +14,12 @@ namespace {
 
 std::string loopText(const state::ControllerMargins& margins, double limit) {
   if (std::isinf(margins.sensitivity_peak)) {
-    return fmt::format("controller {}: its loop is {}, sensitivity without bound",
-                       margins.controller, margins.verdict_name);
+    return fmt::format("controller {}: its loop is {}, sensitivity unbounded", margins.controller,
+                       margins.verdict_name);
   }
   return fmt::format(
-      "controller {}: sensitivity {:.3g} at {:.4g} rad/s is above {:g}, zone {}; its gain may "
-      "rise {:.3g} times, its delay grow by {:.3g} s",
+      "controller {}: sensitivity {:.3g} at {:.4g} rad/s is above {:g}, zone {}; gain margin "
+      "{:.3g} times, delay margin {:.3g} s",
       margins.controller, margins.sensitivity_peak, margins.peak_frequency, limit, margins.zone,
       margins.gain_margin, margins.delay_margin);
 }

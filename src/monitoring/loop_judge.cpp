@@ -97,7 +97,7 @@ Stability LoopJudge::judgeOrSayWhy(double time, const SystemMotion& present,
   const double speed = motionOf(loop_->leadingSystem()).speed;
   auto parts = loop_->parts(motionOf, speed);
   if (!parts) {
-    throw LoopNotLinear("a law of the loop is not linear");
+    throw LoopNotLinear("a control law of the loop is not linear");
   }
   Eigen::VectorXd motion;
   for (const auto& [place, held] : parts->about) {

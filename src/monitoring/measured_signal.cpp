@@ -111,7 +111,7 @@ void MeasuredSignal::look(Probe& probe, const MeasuredProbe& at, const state::Me
   for (auto i = static_cast<std::size_t>(found - message.channel.begin()); i < message.value.size();
        i += message.channel.size()) {
     if (message.valid[i] == 0) {
-      probe.why = "not valid: " + probe.name;
+      probe.why = "invalid: " + probe.name;
     } else if (!std::isfinite(message.value[i])) {
       probe.why = "not finite: " + probe.name;
     } else {
@@ -164,7 +164,7 @@ void MeasuredSignal::follow(const OrbitSample& measured) {
   whirl.speed = sample.speed;
   whirl.shaft_angle = kTwoPi * static_cast<double>(sample.turns) + sample.remainder;
   if (whirl.radius > range_) {
-    beyond_ = fmt::format("out of range: measured whirl {:.3g} mm, beyond {:.3g} mm",
+    beyond_ = fmt::format("out of range: measured whirl {:.3g} mm 0-peak, above {:.3g} mm",
                           1.0e3 * whirl.radius, 1.0e3 * range_);
   }
   motion_.push_back(whirl);
@@ -215,10 +215,11 @@ std::string MeasuredSignal::notOk(double wall_time, bool paused) const {
   }
   for (const Probe& probe : probes_) {
     if (!probe.heard) {
-      return fmt::format("silent: {} has not come yet", probe.name);
+      return fmt::format("timeout: no sample of {} received yet", probe.name);
     }
     if (!paused && isSilent(probe, wall_time)) {
-      return fmt::format("silent: {} for {:.1f} s", probe.name, wall_time - probe.heard_at);
+      return fmt::format("timeout: no sample of {} for {:.1f} s", probe.name,
+                         wall_time - probe.heard_at);
     }
     if (!probe.why.empty()) {
       return probe.why;
@@ -227,7 +228,7 @@ std::string MeasuredSignal::notOk(double wall_time, bool paused) const {
   const double silence = wall_time - pulse_at_;
   if (!paused && turning_ > kStandsSoon &&
       silence > std::max(timeout_, kFewTurns * kTwoPi / turning_)) {
-    return fmt::format("no pulses: {} for {:.1f} s", settings_.keyphasor, silence);
+    return fmt::format("timeout: no pulse of {} for {:.1f} s", settings_.keyphasor, silence);
   }
   const int rejected = orbit_.shaft().refusedLately();
   if (rejected >= kManyRejected) {

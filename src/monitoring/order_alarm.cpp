@@ -7,6 +7,7 @@
 
 #include "algebra/constants.h"
 #include "messages/alert_types.h"
+#include "monitoring/speed_text.h"
 
 namespace whirl_twin {
 
@@ -61,11 +62,12 @@ int subharmonicLine(const state::OrderState& orders) {
 const char* lineAdvice(LineCharacter::Kind kind) {
   switch (kind) {
     case LineCharacter::Kind::kKeepsRatio:
-      return "keeps its ratio to the speed: oil whirl; look at the bearings, their load and oil";
+      return "it keeps its ratio to the speed: oil whirl; check the bearings, their load and oil";
     case LineCharacter::Kind::kKeepsFrequency:
-      return "keeps its frequency: whip; go below the speed at which it began";
+      return "it keeps its frequency: oil whip; reduce the speed below its onset";
     default:
-      return "lower the speed, and see whether it keeps its ratio (whirl) or its frequency (whip)";
+      return "reduce the speed, and check whether it keeps its ratio (oil whirl) or its frequency "
+             "(oil whip)";
   }
 }
 
@@ -124,7 +126,7 @@ void OrderAlarm::updateZone(const state::OrderState& orders, double acceleration
       levelCondition(vibration, by * zones_.b, by * zones_.c, hysteresis_);
   if (zone_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kVibrationZone, time,
-                 fmt::format("{}: vibration back to {:.3g} um peak to peak, {}", system_,
+                 fmt::format("{}: vibration back to {:.3g} um peak-to-peak, {}", system_,
                              kMicrometre * vibration,
                              !has_zones_            ? "its zones are no longer set"
                              : vibration > zones_.a ? "zone B"
@@ -141,11 +143,11 @@ void OrderAlarm::updateZone(const state::OrderState& orders, double acceleration
     alert.amplitude = vibration;
     alert.amplitude_limit = by * (danger ? zones_.c : zones_.b);
     alert.text = fmt::format(
-        "{}: vibration {:.3g} um peak to peak at {:.1f} rad/s, zone {}, above {:.3g} um{}: {}",
-        system_, kMicrometre * vibration, orders.speed, danger ? 'D' : 'C',
+        "{}: vibration {:.3g} um peak-to-peak at {}, zone {}, above {:.3g} um{}: {}", system_,
+        kMicrometre * vibration, shaftSpeedText(orders.speed), danger ? 'D' : 'C',
         kMicrometre * alert.amplitude_limit,
-        by != 1.0 ? fmt::format(" (times {:g} in start-up)", by) : "",
-        danger ? "stop it, it may do damage" : "not for long; look for what has grown");
+        by != 1.0 ? fmt::format(" (multiplied by {:g} during start-up)", by) : "",
+        danger ? "stop the machine, damage is possible" : "limit the duration and find the cause");
     alerts.raise(std::move(alert), danger ? "D" : "C");
   }
 }
@@ -166,7 +168,7 @@ void OrderAlarm::updateLine(const state::OrderState& orders, AlertList& alerts) 
                                        : levelCondition(height, line_level_, kNoLevel, hysteresis_);
   if (line_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kSubsynchronousWhirl, time,
-                 fmt::format("{}: whirl slower than the shaft back to {:.3g} um", system_,
+                 fmt::format("{}: subsynchronous whirl back to {:.3g} um 0-peak", system_,
                              kMicrometre * height));
   } else if (line_alarm_.active() && isRaising(condition)) {
     state::Alert alert;
@@ -179,9 +181,9 @@ void OrderAlarm::updateLine(const state::OrderState& orders, AlertList& alerts) 
     alert.amplitude_limit = line_level_;
     alert.decay_rate = -orders.line_growth[line];
     alert.text = fmt::format(
-        "{}: whirls forward with {:.1f} rad/s, {:.2f} of the speed {:.1f} rad/s, {:.3g} um, above "
-        "{:.3g} um; {}",
-        system_, orders.line_frequency[line], orders.line_ratio[line], orders.speed,
+        "{}: subsynchronous forward whirl at {:.1f} rad/s, {:.2f} times the speed {}, {:.3g} um "
+        "0-peak, above {:.3g} um; {}",
+        system_, orders.line_frequency[line], orders.line_ratio[line], shaftSpeedText(orders.speed),
         kMicrometre * height, kMicrometre * line_level_, lineAdvice(line_.kind()));
     alerts.raise(std::move(alert), lineAdvice(line_.kind()));
   }
@@ -204,7 +206,7 @@ void OrderAlarm::updateRub(const state::OrderState& orders, AlertList& alerts) {
                                             reversed ? 1.0 : kNoLevel, hysteresis_);
   if (rub_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kRub, time,
-                 fmt::format("{}: whirls backward by {:.3g} um, no sign of a rub", system_,
+                 fmt::format("{}: backward whirl {:.3g} um 0-peak, no sign of a rub", system_,
                              kMicrometre * backward));
     return;
   }
@@ -220,14 +222,15 @@ void OrderAlarm::updateRub(const state::OrderState& orders, AlertList& alerts) {
   alert.speed = orders.speed;
   alert.amplitude = by_backward ? backward : subharmonic;
   alert.amplitude_limit = by_backward ? rub_levels_.backward : rub_levels_.subharmonic;
-  const std::string what = by_backward
-                               ? fmt::format("whirls backward by {:.3g} um", kMicrometre * backward)
-                               : fmt::format("whirls with {:.3f} of the speed by {:.3g} um",
-                                             orders.line_ratio[line], kMicrometre * subharmonic);
-  alert.text = fmt::format(
-      "{}: {} at {:.1f} rad/s, precession {:.2f}, above {:.3g} um: {}", system_, what, orders.speed,
-      orders.precession, kMicrometre * alert.amplitude_limit,
-      reversed ? "it rolls on its stator, stop it" : "it may rub; look at seals and clearances");
+  const std::string what =
+      by_backward ? fmt::format("backward whirl {:.3g} um 0-peak", kMicrometre * backward)
+                  : fmt::format("whirl at {:.3f} times the speed, {:.3g} um 0-peak",
+                                orders.line_ratio[line], kMicrometre * subharmonic);
+  alert.text = fmt::format("{}: {} at {}, precession {:.2f}, above {:.3g} um: {}", system_, what,
+                           shaftSpeedText(orders.speed), orders.precession,
+                           kMicrometre * alert.amplitude_limit,
+                           reversed ? "the rotor rolls on its stator, stop the machine"
+                                    : "rub possible; check seals and clearances");
   alerts.raise(std::move(alert), reversed ? "reversed" : by_backward ? "backward" : "subharmonic");
 }
 

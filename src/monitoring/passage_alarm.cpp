@@ -15,19 +15,20 @@ using state::Supervision;
 std::string textOf(Supervision supervision) {
   switch (supervision) {
     case Supervision::kRetreating:
-      return "captured: a resonance takes all the torque that its motor has; it retreats below the "
-             "band";
+      return "resonance capture: a resonance absorbs all the motor's torque; it retreats below the "
+             "barred range";
     case Supervision::kTryingAgain:
-      return "was captured by a resonance and tries again, with all the torque that its motor has";
+      return "tries again after a resonance capture, with the motor's full torque";
     case Supervision::kGivenUp:
-      return "gave up after its last try: a resonance captures it each time; it stays below the "
-             "band";
+      return "gave up after its last attempt, each ended in a resonance capture; it stays below "
+             "the barred range";
     case Supervision::kRefused:
-      return "does not try: its motor cannot bring it through a resonance; it stays below the band";
+      return "does not start: the motor's torque is too low for a resonance; it stays below the "
+             "barred range";
     case Supervision::kNone:
       break;
   }
-  return "has passed";
+  return "passed the resonance";
 }
 
 std::string refusalOf(const ControllerSpec& controller) {

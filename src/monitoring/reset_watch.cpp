@@ -143,8 +143,9 @@ bool ResetWatch::playsEarlier(double wall_time) const {
 
 std::string ResetWatch::duplicate(double wall_time) const {
   if (playsEarlier(wall_time)) {
-    return fmt::format("states of an earlier run come beside those of {}: of a log that is played",
-                       sender());
+    return fmt::format(
+        "states of an earlier run are received beside those of {}, from a log being played",
+        sender());
   }
   if (returns_ < kTurns || !hasRival(wall_time)) {
     return "";
@@ -152,9 +153,9 @@ std::string ResetWatch::duplicate(double wall_time) const {
   std::string names;
   for (const auto& [simulation, rival] : rivals_) {
     names += (names.empty() ? "" : " and ") +
-             (simulation.second.empty() ? "one that does not tell its name" : simulation.second);
+             (simulation.second.empty() ? "a publisher without a name" : simulation.second);
   }
-  return fmt::format("{} sends as this twin, too, beside {}", names, sender());
+  return fmt::format("duplicate publisher: {} publishes as this twin beside {}", names, sender());
 }
 
 }  // namespace whirl_twin

@@ -57,7 +57,7 @@ void RestoredAlerts::heard(const std::string& source, double time, AlertList& al
     const bool about_it = alert.system == source || alert.system == alert_type::kEverybody;
     if (about_it && !isToldByLoop(alert.type) && heard_for >= patienceOf(alert.type)) {
       alerts.clear(alert.system, alert.type, time,
-                   fmt::format("{}: its cause had gone when the monitor came back", alert.system));
+                   fmt::format("{}: its cause was gone when the monitor restarted", alert.system));
     }
   }
   any_ = !alerts.inDoubt().empty();
@@ -80,10 +80,10 @@ void RestoredAlerts::heard(const state::LoopStatistics& loop, AlertList& alerts)
   for (const state::Alert& alert : alerts.inDoubt()) {
     if (another) {
       alerts.clear(alert.system, alert.type, loop.at.time,
-                   fmt::format("{}: the simulation began anew meanwhile", alert.system));
+                   fmt::format("{}: the simulation was restarted meanwhile", alert.system));
     } else if (isToldByLoop(alert.type) && heard_for >= patienceOf(alert.type)) {
       alerts.clear(alert.system, alert.type, loop.at.time,
-                   fmt::format("{}: its cause had gone when the monitor came back", alert.system));
+                   fmt::format("{}: its cause was gone when the monitor restarted", alert.system));
     }
   }
   any_ = !alerts.inDoubt().empty();

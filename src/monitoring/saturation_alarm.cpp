@@ -52,7 +52,7 @@ void SaturationAlarm::update(const state::ControllerState& controller, AlertList
   const AlarmCondition condition = warn ? AlarmCondition::kWarning : AlarmCondition::kClear;
   if (alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(controller_, alert_type::kActuatorSaturated, time,
-                 fmt::format("controller {}: its actuators give what it asks for", controller_));
+                 fmt::format("controller {}: its actuators are no longer saturated", controller_));
   } else if (alarm_.active() && warn) {
     state::Alert alert;
     alert.system = controller_;
@@ -60,8 +60,8 @@ void SaturationAlarm::update(const state::ControllerState& controller, AlertList
     alert.severity = alarm_.severity();
     alert.time = time;
     alert.text = fmt::format(
-        "controller {}: for {:g} s its actuators have not been able to give more than half of what "
-        "it asked for ({:.0f} % of the last second not given): its margins do not hold there",
+        "controller {}: actuators saturated for {:g} s, less than half of the command applied "
+        "({:.0f} % of the last second missing): its margins do not hold",
         controller_, allowed_, 100.0 * saturated_);
     alerts.raise(std::move(alert), "saturated");
   }

@@ -19,8 +19,9 @@ VibrationZones readZones(const YAML::Node& node, const std::string& key, Complai
   zones.c = map.number("c", Range::kPositive, "m", std::nullopt);
   const bool all = map.has("a") && map.has("b") && map.has("c");
   if (all && (zones.b <= zones.a || zones.c <= zones.b)) {
-    complaints.add(key, fmt::format("zones must end one above the other, found {:g}, {:g}, {:g} m",
-                                    zones.a, zones.b, zones.c));
+    complaints.add(
+        key, fmt::format("the limits of the zones must increase, found {:g}, {:g}, {:g} m", zones.a,
+                         zones.b, zones.c));
   }
   return zones;
 }
@@ -52,7 +53,7 @@ SlowRoll readSlowRoll(const YAML::Node& node, const std::string& key, Complaints
   }
   const bool given = map.has("forward") || map.has("backward");
   if (map.has("below") == given) {
-    complaints.add(key, fmt::format("must be learnt `below` a speed [rad/s], or be given as "
+    complaints.add(key, fmt::format("must be learned `below` a speed [rad/s], or be given as "
                                     "`forward` and `backward` [m], found {}",
                                     given ? "both" : "neither"));
     return roll;

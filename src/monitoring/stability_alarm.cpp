@@ -8,6 +8,7 @@
 
 #include "analysis/routh_result.h"
 #include "messages/alert_types.h"
+#include "monitoring/speed_text.h"
 
 namespace whirl_twin {
 namespace {
@@ -49,12 +50,12 @@ std::string growingText(const state::StabilityMargin& margin) {
 }
 
 std::string speedText(double speed) {
-  return std::isnan(speed) ? std::string() : fmt::format(" at {:.1f} rad/s", speed);
+  return std::isnan(speed) ? std::string() : fmt::format(" at {}", shaftSpeedText(speed));
 }
 
 /// Damping within a shaft drives it where it turns fast.
 const char* goodDamping(const state::StabilityMargin& margin) {
-  return std::isnan(margin.speed) ? "add damping" : "add damping outside the shaft";
+  return std::isnan(margin.speed) ? "add damping" : "add external damping";
 }
 
 /// What to do about a motion that grows.
@@ -62,25 +63,30 @@ std::string wayOut(const state::StabilityMargin& margin) {
   const bool below = std::isfinite(margin.threshold_below);
   const bool above = std::isfinite(margin.threshold_above);
   if (below && above) {
-    return fmt::format("go below {:.1f} or above {:.1f} rad/s", margin.threshold_below,
-                       margin.threshold_above);
+    return fmt::format("run below {} or above {}", shaftSpeedText(margin.threshold_below),
+                       shaftSpeedText(margin.threshold_above));
   }
   if (below || above) {
-    return fmt::format("go {} {:.1f} rad/s", below ? "below" : "above",
-                       below ? margin.threshold_below : margin.threshold_above);
+    return fmt::format("run {} {}", below ? "below" : "above",
+                       shaftSpeedText(below ? margin.threshold_below : margin.threshold_above));
   }
-  return fmt::format("{}, or take away what drives it", goodDamping(margin));
+  return fmt::format("{}, or remove the destabilizing force", goodDamping(margin));
 }
 
 /// What to do about one that hardly decays.
 std::string wayToStay(const state::StabilityMargin& margin) {
   if (std::isfinite(margin.threshold_above)) {
-    return fmt::format("stay away from {:.1f} rad/s, or {}", margin.threshold_above,
+    return fmt::format("keep away from {}, or {}", shaftSpeedText(margin.threshold_above),
                        goodDamping(margin));
   }
+  if (!margin.nearest_parameter.empty() && std::isnan(margin.nearest_change)) {  // it is 0
+    return fmt::format("{}; unstable if {} reaches {:.4g}", goodDamping(margin),
+                       margin.nearest_parameter, margin.nearest_value);
+  }
   if (!margin.nearest_parameter.empty()) {
-    return fmt::format("{}; {} changed by {:+.2g} % would lose it", goodDamping(margin),
-                       margin.nearest_parameter, 100.0 * margin.nearest_change);
+    return fmt::format("{}; unstable if {} {} by {:.2g} %", goodDamping(margin),
+                       margin.nearest_parameter, margin.nearest_change < 0.0 ? "falls" : "rises",
+                       100.0 * std::fabs(margin.nearest_change));
   }
   return goodDamping(margin);
 }
@@ -95,8 +101,8 @@ std::string unstableText(const std::string& system, const state::StabilityMargin
     case AlarmCondition::kWarning:
       if (margin.reduction_disagrees) {
         return fmt::format(
-            "{}: verdict uncertain, the rotor has a decay rate of {:.3g} 1/s, its few shapes of "
-            "{:.3g} 1/s: keep more modes",
+            "{}: verdict uncertain, decay rate {:.3g} 1/s of the full-order model, {:.3g} 1/s of "
+            "the reduced-order model: retain more modes",
             where, margin.unreduced_decay_rate, margin.decay_rate);
       }
       return fmt::format("{}: repeated imaginary roots, the motion may grow with time: {}", where,
@@ -153,7 +159,7 @@ void StabilityAlarm::updateLowDamping(const state::StabilityMargin& margin, Aler
   const auto change = low_damping_alarm_.update(margin.at.time, condition);
   if (change == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kLowDamping, margin.at.time,
-                 fmt::format("{}{}: damped enough again, log decrement {:.3g}, decay rate "
+                 fmt::format("{}{}: damping sufficient again, log decrement {:.3g}, decay rate "
                              "{:.3g} 1/s",
                              system_, speedText(margin.speed), judgedLogDecrement(margin),
                              judgedDecayRate(margin)));
@@ -191,7 +197,7 @@ void StabilityAlarm::updateDisagreement(const state::StabilityMargin& margin, Al
     alert.severity = disagreement_alarm_.severity();
     alert.text = fmt::format(
         "{}{}: Routh's test counts {} roots in the right half-plane, the eigenvalues {}: the "
-        "verdict is not to be trusted",
+        "verdict is unreliable",
         system_, speedText(margin.speed), margin.right, margin.right_by_eigenvalues);
     alerts.raise(std::move(alert), "disagreement");
   }
@@ -208,16 +214,17 @@ void StabilityAlarm::updateSpread(const state::StabilityMargin& margin, AlertLis
                                        : AlarmCondition::kClear;
   const auto change = spread_alarm_.update(margin.at.time, condition);
   if (change == ConditionAlarm::Change::kCleared) {
-    alerts.clear(system_, alert_type::kUnstableWithinSpread, margin.at.time,
-                 fmt::format("{}{}: stable within its spread again, slowest decay {:.3g} 1/s",
-                             system_, speedText(margin.speed), margin.lowest_decay_rate));
+    alerts.clear(
+        system_, alert_type::kUnstableWithinSpread, margin.at.time,
+        fmt::format("{}{}: stable within the tolerances again, lowest decay rate {:.3g} 1/s",
+                    system_, speedText(margin.speed), margin.lowest_decay_rate));
   } else if (spread_alarm_.active() && isRaising(condition)) {
     state::Alert alert = alertAbout(margin);
     alert.type = alert_type::kUnstableWithinSpread;
     alert.severity = spread_alarm_.severity();
     alert.text = fmt::format(
-        "{}{}: {} of {} members of its spread decay slower than {:g} 1/s or grow, the slowest "
-        "decay found within it is {:.3g} 1/s: know its numbers better, or keep further away",
+        "{}{}: {} of {} parameter samples have a decay rate below {:g} 1/s, the lowest found is "
+        "{:.3g} 1/s: reduce the uncertainty or increase the margin",
         system_, speedText(margin.speed), margin.members_beyond, margin.members,
         settings_.decay_rate_alarm, margin.lowest_decay_rate);
     alerts.raise(std::move(alert), "within its spread");

@@ -35,15 +35,15 @@ void StateAlarm::updateEnergy(double time, double residual, AlertList& alerts) {
   energy_above_ = above;
   if (energy_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kEnergyResidual, time,
-                 fmt::format("{}: energy balance holds again, residual {:.2g}", system_, residual));
+                 fmt::format("{}: energy residual normal again, {:.2g}", system_, residual));
   } else if (energy_alarm_.active() && isRaising(condition)) {
     state::Alert alert;
     alert.system = system_;
     alert.type = alert_type::kEnergyResidual;
     alert.severity = energy_alarm_.severity();
     alert.time = time;
-    alert.text = fmt::format("{}: energy balance off by {:.2g}, more than {:g}: shorten the step",
-                             system_, residual, limit);
+    alert.text = fmt::format("{}: energy residual {:.2g}, above {:g}: shorten the step", system_,
+                             residual, limit);
     alerts.raise(std::move(alert), "energy residual");
   }
 }
@@ -57,9 +57,8 @@ void StateAlarm::updateAccuracy(double time, double estimate, double tolerance, 
     condition = AlarmCondition::kClear;
   }
   if (accuracy_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
-    alerts.clear(
-        system_, alert_type::kAccuracyLost, time,
-        fmt::format("{}: as accurate as the scene asks again, error {:.1g}", system_, estimate));
+    alerts.clear(system_, alert_type::kAccuracyLost, time,
+                 fmt::format("{}: error within the tolerance again, {:.1g}", system_, estimate));
   } else if (accuracy_alarm_.active() && isRaising(condition)) {
     state::Alert alert;
     alert.system = system_;
@@ -67,7 +66,7 @@ void StateAlarm::updateAccuracy(double time, double estimate, double tolerance, 
     alert.severity = accuracy_alarm_.severity();
     alert.time = time;
     alert.text = fmt::format(
-        "{}: error about {:.1g} over its horizon, more than its tolerance {:g}: shorten the step",
+        "{}: error about {:.1g} over the horizon, above the tolerance {:g}: shorten the step",
         system_, estimate, tolerance);
     alerts.raise(std::move(alert), "accuracy");
   }
@@ -76,7 +75,7 @@ void StateAlarm::updateAccuracy(double time, double estimate, double tolerance, 
 void StateAlarm::updateStopped(double time, StepStatus status, const std::string& why,
                                AlertList& alerts) {
   // Over the network it may come without.
-  const std::string text = why.empty() ? system_ + ": stopped, and not told why" : why;
+  const std::string text = why.empty() ? system_ + ": stopped, cause not reported" : why;
   const bool stopped = status != StepStatus::kOk;
   const AlarmCondition condition = stopped ? AlarmCondition::kDanger : AlarmCondition::kClear;
   const bool cleared = stopped_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared;

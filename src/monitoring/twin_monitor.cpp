@@ -124,7 +124,7 @@ std::string TwinMonitor::uncertainty(double wall_time) const {
     return uncertain_;
   }
   return resets_.isAmbiguous(wall_time)
-             ? "two twins send at the same simulated time: which is which cannot be told"
+             ? "two twins publish at the same simulated time and cannot be distinguished"
              : "";
 }
 
@@ -141,7 +141,7 @@ void TwinMonitor::reportDuplicate(double wall_time) {
     alerts_.raise(std::move(alert), found);
   } else if (known && !resets_.hasRival(wall_time)) {
     alerts_.clear(alert_type::kEverybody, alert_type::kDuplicateTwin, time_,
-                  "one twin at most is left");
+                  "only one publisher remains");
   }
 }
 
@@ -171,7 +171,7 @@ void TwinMonitor::remember(const AlarmMemory& memory) {
   for (const state::Alert& alert : memory.alerts) {
     if (alert.type == alert_type::kInhibited || alert.type == alert_type::kTripMultiplied) {
       alerts_.clear(alert.system, alert.type, alert.time,
-                    fmt::format("{}: ended when the monitor was started again", alert.system));
+                    fmt::format("{}: ended when the monitor restarted", alert.system));
     }
   }
 }
@@ -181,7 +181,7 @@ void TwinMonitor::liftInhibitions(double wall_time) {
     if (wall_time >= held->second.until) {
       alerts_.setInhibited(held->first, false);
       alerts_.clear(held->first, alert_type::kInhibited, time_,
-                    fmt::format("alerts of {} are raised again: inhibited by {} {}", held->first,
+                    fmt::format("alerts of {} are active again: inhibited by {} {}", held->first,
                                 held->second.by, held->second.times));
       held = inhibitions_.erase(held);
     } else {

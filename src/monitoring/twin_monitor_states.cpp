@@ -82,13 +82,13 @@ void TwinMonitor::reportStartUp(SystemWatch& watch, const state::DriveState& sha
     alert.speed = shaft.speed;
     alert.acceleration = shaft.acceleration;
     alert.text = fmt::format(
-        "{}: levels of amplitude and zones are {:g} times as large while its shaft starts up, for "
-        "{:g} s at most",
+        "{}: amplitude levels and zones are multiplied by {:g} during start-up, for at most {:g} s",
         watch.name, times, settings_.max_inhibition);
     alerts_.raise(alert, alert.text);
   } else if (known && !(times > 1.0)) {
-    alerts_.clear(watch.name, alert_type::kTripMultiplied, shaft.at.time,
-                  fmt::format("{}: levels of amplitude and zones are as set again", watch.name));
+    alerts_.clear(
+        watch.name, alert_type::kTripMultiplied, shaft.at.time,
+        fmt::format("{}: amplitude levels and zones are no longer multiplied", watch.name));
   }
 }
 

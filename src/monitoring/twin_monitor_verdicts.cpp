@@ -75,7 +75,7 @@ void TwinMonitor::refuse(const state::ParameterChange& change, SystemWatch& watc
   if (change.names != watch.system->parameters().names) {
     return;  // of another scene
   }
-  watch.refused = "the parameters that are reported of it cannot be its";
+  watch.refused = "its reported parameters are invalid";
   try {
     static_cast<void>(watch.system->with(change.names, change.values, "parameters"));
   } catch (const Refusal& why) {

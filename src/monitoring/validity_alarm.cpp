@@ -41,14 +41,14 @@ void ValidityAlarm::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
       broken.empty() ? AlarmCondition::kClear : AlarmCondition::kWarning;
   if (alarm_.update(at.time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kModelInvalid, at.time,
-                 fmt::format("{}: its equations hold again", system_));
+                 fmt::format("{}: its equations are valid again", system_));
   } else if (alarm_.active() && !broken.empty()) {
     state::Alert alert;
     alert.system = system_;
     alert.type = alert_type::kModelInvalid;
     alert.severity = alarm_.severity();
     alert.time = at.time;
-    alert.text = fmt::format("{}: its equations do not hold: {}", system_, broken);
+    alert.text = fmt::format("{}: its equations are not valid: {}", system_, broken);
     alerts.raise(std::move(alert), broken);
   }
 }

@@ -101,8 +101,8 @@ void VotedAlarm::take(const state::WhirlState& whirl, double acceleration, doubl
                                        : AlarmCondition::kClear;
   if (alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kVotedAmplitude, time,
-                 taken_away ? fmt::format("{}: its sources are no longer asked", system_)
-                            : fmt::format("{}: fewer than {} of {} sources vibrate too wide",
+                 taken_away ? fmt::format("{}: its voting was removed", system_)
+                            : fmt::format("{}: fewer than {} of {} sources above the level",
                                           system_, voting_->agree, sources_.size()));
     if (taken_away) {
       sources_.clear();
@@ -128,10 +128,10 @@ state::Alert VotedAlarm::alertOf(const state::WhirlState& whirl, double by,
   std::string silent;
   for (const Source& source : sources_) {
     if (!source.votes) {
-      silent += (silent.empty() ? "; not OK: " : ", ") + source.name;
+      silent += (silent.empty() ? "; bad data: " : ", ") + source.name;
     } else if (source.amplitude > alert.amplitude_limit) {
       above.push_back(source.amplitude);
-      who += fmt::format("{}{} {:.3g} mm", who.empty() ? "" : ", ", source.name,
+      who += fmt::format("{}{} {:.3g} mm 0-peak", who.empty() ? "" : ", ", source.name,
                          kMillimetre * source.amplitude);
     }
   }
@@ -139,11 +139,10 @@ state::Alert VotedAlarm::alertOf(const state::WhirlState& whirl, double by,
   std::sort(above.begin(), above.end(), std::greater<>());
   alert.amplitude = above[static_cast<std::size_t>(voting_->agree) - 1];
   alert.text = fmt::format(
-      "{}: {} of {} sources vibrate beyond the {} level {:.3g} mm{} ({}{}): {}", system_,
-      above.size(), sources_.size(), danger ? "danger" : "alert",
-      kMillimetre * alert.amplitude_limit,
-      by != 1.0 ? fmt::format(", times {:g} in start-up", by) : "", who, silent,
-      danger ? "stop it, or leave this speed" : "look for what has grown, or leave this speed");
+      "{}: {} of {} sources above the {} level {:.3g} mm{} ({}{}): {}", system_, above.size(),
+      sources_.size(), danger ? "danger" : "alert", kMillimetre * alert.amplitude_limit,
+      by != 1.0 ? fmt::format(", multiplied by {:g} during start-up", by) : "", who, silent,
+      danger ? "stop the machine or change the speed" : "find the cause or change the speed");
   return alert;
 }
 
@@ -161,7 +160,7 @@ std::string VotedAlarm::notOk(double wall_time, bool paused) const {
   for (const Source& source : sources_) {
     const std::string why = source.quality.notOk(wall_time, paused);
     if (!why.empty()) {
-      all += fmt::format("{}{} {}", all.empty() ? "does not vote: " : "; ", source.name, why);
+      all += fmt::format("{}{} {}", all.empty() ? "not voting: " : "; ", source.name, why);
     }
   }
   return all;

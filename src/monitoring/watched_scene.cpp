@@ -58,8 +58,8 @@ std::string WatchedScene::differenceOf(const state::SceneText& told) const {
     const auto theirs = its.find(path);
     if (mine == own_.end() || theirs == its.end() || mine->second != theirs->second) {
       return fmt::format(
-          "the twin runs another scene ({}) than the monitor has ({}): {} is {} there, {} here; "
-          "nothing is judged until the monitor is started with the scene of the twin",
+          "the scene of the twin ({}) differs from that of the monitor ({}): {} is {} there, {} "
+          "here; no evaluation until the monitor is started with the scene of the twin",
           printable(told.source), printable(source_), printable(path), shown(its, path),
           shown(own_, path));
     }

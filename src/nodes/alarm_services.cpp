@@ -62,7 +62,7 @@ void AlarmServices::listen(const std::string& lcm_url, const std::string& lcm_pr
         },
         lcm_prefix);
   } catch (const LcmNotAvailable& problem) {
-    ROS_WARN("%s; commands about alarms are taken on ROS only", problem.what());
+    ROS_WARN("%s; alarm commands are accepted on ROS only", problem.what());
   }
 }
 
@@ -97,7 +97,7 @@ void AlarmServices::take(const state::AlarmCommand& command, const std::string& 
 
 void AlarmServices::refuse(const std::string& why) {
   ++refused_;
-  ROS_WARN_THROTTLE(5.0, "a command about alarms is refused: %s", why.c_str());
+  ROS_WARN_THROTTLE(5.0, "an alarm command is refused: %s", why.c_str());
 }
 
 bool AlarmServices::acknowledge(

@@ -76,7 +76,7 @@ bool AlarmSettingsService::set(SetAlarmSettings::Request& request,
       monitor_.set(settings_.settings());
       tellParameters(before);
       was_changed_(request.settings);
-      ROS_WARN("the settings of the alarms were changed: %s", settings_.text().c_str());
+      ROS_WARN("alarm settings changed: %s", settings_.text().c_str());
     } catch (const Refusal& wrong) {
       response.success = false;
       response.message = wrong.what();
@@ -91,8 +91,7 @@ std::string AlarmSettingsService::obey(const YAML::Node& all) {
     if (settings_.replace(all, own_.getNamespace())) {
       monitor_.set(settings_.settings());
       was_changed_(settings_.text());
-      ROS_WARN("the settings of the alarms were changed by parameters: %s",
-               settings_.text().c_str());
+      ROS_WARN("alarm settings changed by parameters: %s", settings_.text().c_str());
     }
   } catch (const Refusal& wrong) {
     return wrong.what();

@@ -100,7 +100,7 @@ void ChangedParameters::report(diagnostic_updater::Updater& diagnostics) {
     told_ = trouble;
     s.summary(trouble.empty() ? diagnostic_msgs::DiagnosticStatus::OK
                               : diagnostic_msgs::DiagnosticStatus::WARN,
-              trouble.empty() ? "as they are in force" : trouble);
+              trouble.empty() ? "all in force" : trouble);
   });
 }
 

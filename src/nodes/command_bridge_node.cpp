@@ -25,20 +25,21 @@ namespace {
 
 constexpr const char* kHelp =
     "usage: command_bridge_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "Commands to a twin between ROS and LCM: pause, resume, reset, step, set_speed, set_parameter, "
-    "set_input,\n"
-    "set_real_time_factor. No scene.\n"
+    "Commands to a twin between ROS and LCM: pause, resume, reset, step, set_speed, "
+    "set_parameter,\n"
+    "set_input, set_real_time_factor. Needs no scene.\n"
     "\n"
     "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
-    "  ~role        take: from LCM to the services of the simulation, the default; send: its own "
-    "services, to LCM\n"
+    "  ~role        take: from LCM to the services of the simulation, the default; send: from its\n"
+    "               own services to LCM\n"
     "  ~lcm_url     default udpm://239.255.76.67:7667?ttl=0\n"
-    "  ~lcm_prefix  what the channels begin with, default TWIN_, or its namespace in capitals\n"
+    "  ~lcm_prefix  prefix of the channels, default TWIN_, or its namespace in capitals\n"
     "  ~simulation  take: the node whose services are called, default simulation_node\n"
-    "  ~lease       take: s after a command that nobody else may command, 0 to 3600, default 5\n"
-    "  ~played      take: true or false, default false: also commands sent more than 5 s ago, as "
-    "out of a log\n"
-    "  ~timeout     send: s that an answer is waited for, 0.1 to 3600, default 5\n";
+    "  ~lease       take: s after a command during which other senders are refused, 0 to 3600,\n"
+    "               default 5\n"
+    "  ~played      take: true or false, default false: also accept commands sent more than 5 s\n"
+    "               ago, as those of a log are\n"
+    "  ~timeout     send: s to wait for an answer, 0.1 to 3600, default 5\n";
 
 constexpr std::chrono::milliseconds kPoll{20};
 constexpr int kThreads = 4;  // services at a time
@@ -72,7 +73,7 @@ BridgeSettings readSettings() {
     throw Refusal(fmt::format("role: expected take or send, found {}", quoted(role)));
   }
   s.takes = role == "take";
-  s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
+  s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM URL", kDefaultLcmUrl);
   s.lcm_prefix = lcmPrefixParameter();
   s.simulation = ros::names::resolve(
       privateParameter<std::string>("simulation", "the name of a node", "simulation_node"));
@@ -87,7 +88,7 @@ using diagnostic_msgs::DiagnosticStatus;
 
 void addLatency(const TimingHistogram& latency, Status& status) {
   for (const double percent : {50.0, 99.0, 100.0}) {
-    status.add(fmt::format("s from sending to the answer, {:g} %", percent),
+    status.add(fmt::format("time from command to answer, {:g} % [s]", percent),
                static_cast<double>(latency.percentile(percent)) * 1.0e-9);
   }
 }
@@ -113,14 +114,15 @@ void run() {
     if (taker) {
       const CommandCounts counts = taker->counts();
       status.summary(DiagnosticStatus::OK,
-                     counts.holder.empty() ? "nobody commands" : counts.holder + " commands");
+                     counts.holder.empty() ? "no commander" : counts.holder + " has the command");
       if (refused.roseLately(counts.refused + channels.malformed().total(), now)) {
         status.mergeSummary(DiagnosticStatus::WARN, "commands are refused");
       }
       if (const auto others = taker->others(); !others.empty()) {
-        const std::string text =
-            fmt::format("{} takes the commands of {}*, too: each is done twice; end one of them",
-                        fmt::join(others, " and "), settings.lcm_prefix);
+        const std::string text = fmt::format(
+            "duplicate receiver: {} also executes the commands of {}*: each is executed twice; "
+            "stop one of them",
+            fmt::join(others, " and "), settings.lcm_prefix);
         ROS_ERROR_THROTTLE(60.0, "%s", text.c_str());
         status.mergeSummary(DiagnosticStatus::ERROR, text);
       }
@@ -129,7 +131,7 @@ void run() {
       status.add("last refusal", counts.last_refusal);
       addLatency(counts.latency, status);
     } else {
-      status.summary(DiagnosticStatus::OK, "commands go to LCM");
+      status.summary(DiagnosticStatus::OK, "commands are sent to LCM");
       if (refused.roseLately(sender->unanswered(), now)) {
         status.mergeSummary(DiagnosticStatus::WARN, "commands are not answered");
       }

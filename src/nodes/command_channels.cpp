@@ -54,7 +54,7 @@ void CommandChannels::take(std::function<void(const command_answer_t&)> handler)
 void CommandChannels::listen(const std::string& channel, lcm_msg_handler_t handler) {
   // LCM's C function says when it fails; the C++ one does not.
   if (lcm_subscribe(lcm_->getUnderlyingLCM(), channel.c_str(), handler, this) == nullptr) {
-    throw LcmNotAvailable("LCM cannot receive " + channel + " (is multicast on?)");
+    throw LcmNotAvailable("LCM cannot receive " + channel + " (is multicast enabled?)");
   }
 }
 

@@ -143,7 +143,7 @@ class ReadFields {
         return set(key, from_.values[i], value);
       }
     }
-    faults_.push_back(fmt::format("{}: is missing", key));
+    faults_.push_back(fmt::format("{}: missing", key));
     if constexpr (std::is_floating_point_v<Number>) {
       value = std::nan("");
     }
@@ -174,8 +174,7 @@ class ReadFields {
     }
     for (const std::string& key : from_.keys) {
       if (!free_ && std::find(known_.begin(), known_.end(), key) == known_.end()) {
-        faults_.push_back(
-            fmt::format("{}: is none of its keys{}", printable(key), hint(key, known_)));
+        faults_.push_back(fmt::format("{}: unknown key{}", printable(key), hint(key, known_)));
       }
     }
     if (!faults_.empty()) {

@@ -7,8 +7,8 @@ namespace whirl_twin {
 std::string CommandLease::ask(const std::string& sender, double now) {
   const std::string other = holder(now);
   if (!other.empty() && other != sender) {
-    return fmt::format("{} commands, for {:.1f} s more unless it commands again", other,
-                       until_ - now);
+    return fmt::format("{} has the command for another {:.1f} s, longer if it sends more commands",
+                       other, until_ - now);
   }
   holder_ = sender;
   until_ = now + duration_;

@@ -30,8 +30,7 @@ void CommandSender::advertise(ros::NodeHandle& node, const std::string& command)
     response.success = answer && answer->done != 0;
     response.message =
         answer ? answer->message
-               : fmt::format("no answer in {:g} s: nobody takes commands there, or it takes longer",
-                             timeout_);
+               : fmt::format("no answer within {:g} s: no receiver, or it takes longer", timeout_);
     if (answer) {
       ReadFields<command_answer_t> read(*answer);
       fieldsOf(read, response);

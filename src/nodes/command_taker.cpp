@@ -116,7 +116,7 @@ void CommandTaker::take(const twin_command_t& command) {
   if (command.command == kRelease) {
     command_answer_t done{};
     done.done = 1;
-    done.message = "anybody may command";
+    done.message = "command released";
     return answer(command, done);
   }
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -136,20 +136,22 @@ std::string CommandTaker::objectionTo(const twin_command_t& command) {
   }
   const std::int64_t way = wallMicroseconds() - command.utime;
   if (!played_ && (way > kLongestWay || way < -kLongestWay)) {
-    return fmt::format("utime: was sent {:.1f} s ago, as out of a log; ~played lets such pass",
-                       static_cast<double>(way) * 1.0e-6);
+    return fmt::format(
+        "utime: must be sent at most a few seconds ago, found {:.1f} s (a played log?); ~played "
+        "accepts it",
+        static_cast<double>(way) * 1.0e-6);
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   if (command.command == "pause") {
     return "";
   }
   if (waiting_.size() >= kMostWaiting) {
-    return fmt::format("{} commands wait already", waiting_.size());
+    return fmt::format("the queue is full: {} commands are waiting", waiting_.size());
   }
   const std::string before = lease_.holder(steadyNow());
   const std::string objection = lease_.ask(command.sender, steadyNow());
   if (objection.empty() && before.empty()) {
-    ROS_INFO("%s commands", command.sender.c_str());
+    ROS_INFO("%s has the command", command.sender.c_str());
   }
   if (command.command == kRelease) {
     lease_.release(command.sender);

@@ -97,7 +97,7 @@ void ExternalControllers::listenOnLcm(const std::string& lcm_url) {
     lcm_ = openLcm(lcm_url);
     tapCommands();
   } catch (const LcmNotAvailable& problem) {
-    ROS_WARN("%s; controllers in other processes are heard on ROS only", problem.what());
+    ROS_WARN("%s; controllers in other processes are received on ROS only", problem.what());
   }
 }
 
@@ -141,8 +141,7 @@ void ExternalControllers::run() {
 void ExternalControllers::take(const Connection& connection, const ExternalSample& command) {
   if (!connection.link->answer(command)) {
     refused_.fetch_add(1, std::memory_order_relaxed);
-    ROS_WARN_THROTTLE(5.0,
-                      "controller %s: a command is refused: %zu values were expected, found %zu",
+    ROS_WARN_THROTTLE(5.0, "controller %s: a command is refused: must have %zu values, found %zu",
                       connection.name.c_str(), connection.link->outputs(), command.values.size());
   }
 }

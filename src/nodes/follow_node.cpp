@@ -37,22 +37,20 @@ namespace {
 
 constexpr const char* kHelp =
     "usage: follow_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "A twin that follows its machine: measurements in, from ROS or LCM; out what simulation_node "
-    "publishes, with what was\n"
-    "measured and learned beside it. The scene (on the parameter server) is the model, its sensors "
-    "say what is measured.\n"
+    "A twin that estimates the state of its machine: receives measurements from ROS or LCM;\n"
+    "publishes what simulation_node publishes, with the measurements and the estimated "
+    "parameters.\n"
+    "The scene (on the parameter server) is the model, its sensors specify what is measured.\n"
     "\n"
     "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
     "  ~machine         namespace of the machine's topics measured/..., default /machine\n"
-    "  ~input           ros or lcm, default ros: where measurements come from\n"
-    "  ~machine_prefix  what the machine's LCM channels begin with, default its namespace in "
-    "capitals\n"
+    "  ~input           ros or lcm, default ros: source of the measurements\n"
+    "  ~machine_prefix  prefix of the machine's LCM channels, default its namespace in capitals\n"
     "  ~publish_rate    Hz, default 0: every step of the scene\n"
     "  ~lcm_url         default udpm://239.255.76.67:7667?ttl=0; empty: no LCM\n"
-    "  ~lcm_prefix      what its LCM channels begin with, default TWIN_, or its namespace in "
-    "capitals\n"
-    "  ~follow          what to follow beside the motion, as in the file of `twin follow "
-    "--settings`\n";
+    "  ~lcm_prefix      prefix of its LCM channels, default TWIN_, or its namespace in capitals\n"
+    "  ~follow          what to estimate beside the motion, as in the file of\n"
+    "                   `twin follow --settings`\n";
 
 const ros::WallDuration kReportPeriod(1.0);
 const ros::WallDuration kSilence(1.0);         // of the machine, from which on it is told
@@ -72,22 +70,23 @@ void report(const MachineInput& input, const FollowPublisher& publisher, const F
             diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(input.taken() == 0 ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
-                 input.taken() == 0 ? "nothing measured has come yet"
+                 input.taken() == 0 ? "no measurement received yet"
                                     : fmt::format("{} messages", input.taken()));
   if (input.rejected() > 0) {
-    status.mergeSummary(DiagnosticStatus::WARN, fmt::format("{} refused", input.rejected()));
-    status.add("last refused", input.lastRejection());
+    status.mergeSummary(DiagnosticStatus::WARN, fmt::format("{} rejected", input.rejected()));
+    status.add("last rejected", input.lastRejection());
   }
   if (const std::string others = input.runs().duplicate(ros::SteadyTime::now().toSec());
       !others.empty()) {
     status.mergeSummary(DiagnosticStatus::WARN, printable(others, others.size()));
   }
-  status.add("left out, of other machines", input.runs().ofOthers());
-  status.add("motion found anew", follower.restarts());
+  status.add("ignored, of other machines", input.runs().ofOthers());
+  status.add("re-initializations", follower.restarts());
   for (const auto& [system, told] : publisher.told()) {
-    status.add(system, fmt::format("{} used, {} refused, {} invalid, {} late, {} lost, {} repeated",
-                                   told.used, told.refused, told.invalid, told.late, told.lost,
-                                   told.repeated));
+    status.add(
+        system,
+        fmt::format("{} used, {} rejected, {} invalid, {} late, {} lost, {} repeated", told.used,
+                    told.refused, told.invalid, told.late, told.lost, told.repeated));
   }
 }
 
@@ -105,15 +104,15 @@ void run() {
     throw Refusal(fmt::format("input: must be ros or lcm, found '{}'", printable(input)));
   }
   const auto lcm_url =
-      privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
+      privateParameter<std::string>("lcm_url", "an LCM URL, or nothing", kDefaultLcmUrl);
   const auto prefix = privateParameter<std::string>("machine_prefix", "letters, digits and _",
                                                     lcmPrefixOf(machine));
   requireLcmPrefix(prefix);
   const std::string own_prefix = lcmPrefixParameter();
   if (machine == twinNamespace() || (input == "lcm" && prefix == own_prefix)) {
     throw Refusal(
-        "machine: must be another namespace and prefix than the twin's, which tells what "
-        "was measured under its own");
+        "machine: namespace and prefix must differ from the twin's, which publishes measurements "
+        "under its own");
   }
   const std::int64_t every = stepsToPublish(twin.scene());
   const FollowSettings settings = readSettings(twin.built());
@@ -174,7 +173,7 @@ void run() {
   reportMaster(master, diagnostics);
   ChangedParameters parameters(master);
   parameters.report(diagnostics);
-  ROS_INFO("follows %s by %s", machine.c_str(), input.c_str());
+  ROS_INFO("estimating the state of %s by %s", machine.c_str(), input.c_str());
   ros::WallTime next_report = ros::WallTime::now();
   ros::WallTime next_silence = next_report;
   ros::WallTime next_again = next_report + kAgainPeriod;

@@ -51,7 +51,7 @@ InputCommands::InputCommands(const LiveTwin& twin, TwinServices& services, ros::
         },
         lcm_prefix);
   } catch (const LcmNotAvailable& problem) {
-    ROS_WARN("%s; inputs are set on ROS only", problem.what());
+    ROS_WARN("%s; inputs can be set on ROS only", problem.what());
   }
 }
 
@@ -93,7 +93,7 @@ void InputCommands::take(const state::InputCommand& command, const std::string& 
 void InputCommands::refuse(const std::string& why) {
   ++refused_;
   last_refusal_ = why;
-  ROS_WARN_THROTTLE(5.0, "a command to an input is refused: %s", why.c_str());
+  ROS_WARN_THROTTLE(5.0, "an input command is refused: %s", why.c_str());
 }
 
 }  // namespace whirl_twin

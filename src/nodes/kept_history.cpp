@@ -68,7 +68,7 @@ void KeptHistory::reportProblem() {
   }
   reported_ = history_->problem();
   if (reported_.empty()) {
-    ROS_INFO("the history of the alarms is kept again");
+    ROS_INFO("the alarm history is saved again");
   } else {
     ROS_WARN("%s", reported_.c_str());
   }

@@ -37,7 +37,7 @@ void awaitSubscribers(const ros::Publisher& publisher) {
   const ros::WallTime deadline = ros::WallTime::now() + kConnectTimeout;
   while (publisher.getNumSubscribers() < expected && ros::ok()) {
     if (ros::WallTime::now() > deadline) {
-      ROS_WARN("%s: %zu nodes have subscribed, only %u are connected; going on",
+      ROS_WARN("%s: %zu nodes have subscribed, only %u are connected; continuing",
                publisher.getTopic().c_str(), expected, publisher.getNumSubscribers());
       return;
     }

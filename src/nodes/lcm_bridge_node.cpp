@@ -38,15 +38,15 @@ namespace {
 
 constexpr const char* kHelp =
     "usage: lcm_bridge_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "LCM channels of a twin to the ROS topics of a live one: for logs that are played, and twins "
-    "elsewhere. No scene.\n"
+    "Publishes the LCM channels of a twin on the ROS topics of a live one: for played logs and\n"
+    "twins on other machines. Needs no scene.\n"
     "\n"
     "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
     "  ~lcm_url     where to listen, default udpm://239.255.76.67:7667?ttl=0\n"
-    "  ~lcm_prefix  what the channels begin with, default TWIN_, or its namespace in capitals\n"
+    "  ~lcm_prefix  prefix of the channels, default TWIN_, or its namespace in capitals\n"
     "  ~derived     true or false, default false: also publish recorded margins and alerts\n"
-    "  ~newest      Hz, 0 to 1e5: of states the newest of each so often; default 0: every "
-    "message\n";
+    "  ~newest      Hz, 0 to 1e5: publish only the newest state at this rate; default 0: every\n"
+    "               message\n";
 
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr double kMostOften = 1.0e5;  // Hz
@@ -105,9 +105,9 @@ class BridgeDiagnostics {
     status.add("rejected", receiver.rejected());
     status.add("last rejection", receiver.refused().last());
     status.add("messages lost by slow subscribers", topics.lost());
-    status.add("left out for newer ones", states.leftOut());
+    status.add("superseded by newer ones", states.leftOut());
     for (const double percent : {50.0, 99.0, 100.0}) {
-      status.add(fmt::format("s from arrival to publication, {:g} %", percent),
+      status.add(fmt::format("time from reception to publication, {:g} % [s]", percent),
                  static_cast<double>(states.latency().percentile(percent)) * 1.0e-9);
     }
     for (const auto& [name, count] : receiver.channels()) {
@@ -122,7 +122,7 @@ class BridgeDiagnostics {
 
 void run() {
   requireKnownParameters({"lcm_url", "lcm_prefix", "derived", "newest"});
-  const auto url = privateParameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
+  const auto url = privateParameter<std::string>("lcm_url", "an LCM URL", kDefaultLcmUrl);
   const auto derived = privateParameter<bool>("derived", "true or false", false);
   const std::string prefix = lcmPrefixParameter();
   const double newest = privateParameter("newest", "a number in Hz", 0.0);
@@ -157,7 +157,7 @@ void run() {
   BridgeDiagnostics counts;
   diagnostics.add("received from LCM", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
     counts.summarize(*receiver, bridge.topics(), states, status);
-    status.add("left out, of other runs", runs.ofOthers());
+    status.add("ignored, of other runs", runs.ofOthers());
   });
   const RefusalReport refused_payloads(diagnostics, {&receiver->refused()});
   reportMaster(master, diagnostics);

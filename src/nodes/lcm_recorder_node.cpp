@@ -24,7 +24,7 @@ constexpr const char* kHelp =
     "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
     "  ~log         the file to write\n"
     "  ~lcm_url     where to listen, default udpm://239.255.76.67:7667?ttl=0\n"
-    "  ~lcm_prefix  what the channels begin with, default TWIN_, or its namespace in capitals\n"
+    "  ~lcm_prefix  prefix of the channels, default TWIN_, or its namespace in capitals\n"
     "  ~force       true or false, default false: overwrite an existing file\n";
 
 using std::chrono::milliseconds;
@@ -33,14 +33,14 @@ void run() {
   const ros::NodeHandle node;  // keeps ROS up while the parameters are read
   requireKnownParameters({"log", "lcm_url", "lcm_prefix", "force"});
   const auto log = privateParameter<std::string>("log", "the name of a file", "");
-  const auto url = privateParameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
+  const auto url = privateParameter<std::string>("lcm_url", "an LCM URL", kDefaultLcmUrl);
   const auto force = privateParameter<bool>("force", "true or false", false);
   const std::string prefix = lcmPrefixParameter();
   if (log.empty()) {
-    throw Refusal("log: missing; expected the name of a file to write");
+    throw Refusal("log: missing; must be the name of a file to write");
   }
   if (!force && std::filesystem::exists(log)) {
-    throw Refusal(fmt::format("log: '{}' exists; say force:=true to overwrite it", log));
+    throw Refusal(fmt::format("log: '{}' exists; set force:=true to overwrite it", log));
   }
   MasterWatch master;
   const auto lcm = openLcm(url);

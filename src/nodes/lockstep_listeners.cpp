@@ -49,7 +49,7 @@ Lockstep::Settings lockstepParameters(std::int64_t every) {
     }
     const std::string name = ros::names::resolve(word);
     if (std::count(settings.who.begin(), settings.who.end(), name) > 0) {
-      throw Refusal(fmt::format("lockstep: {} is named twice", name));
+      throw Refusal(fmt::format("lockstep: duplicate {}", name));
     }
     settings.who.push_back(name);
   }
@@ -175,7 +175,7 @@ void LockstepListeners::watch() {
     }
     lockstep_.leaveOut(overdue);
     ROS_ERROR(
-        "lockstep: paused at step %ld: nothing acknowledged for %g s by %s; ~resume goes on "
+        "lockstep: paused at step %ld: no acknowledgement for %g s by %s; ~resume continues "
         "without",
         static_cast<long>(live_.stepCount()), lockstep_.settings().timeout,
         joined(overdue).c_str());
@@ -187,10 +187,10 @@ void LockstepListeners::tellNews() {
   const std::string waits = lockstep_.gathers() ? waitsFor() : "";
   const std::string out = joined(lockstep_.leftOut());
   const std::string news = !waits.empty()
-                               ? fmt::format("waits for {} to listen to it, and to publish {}",
+                               ? fmt::format("waiting for {} to subscribe, and to publish {}",
                                              waits, acknowledgements_.getTopic())
-                           : !out.empty() ? fmt::format("nobody waits for {}", out)
-                                          : "all are in step";
+                           : !out.empty() ? fmt::format("continues without {}", out)
+                                          : "all nodes are in step";
   if (news != told_) {
     ROS_INFO("lockstep: %s", news.c_str());
     told_ = news;
@@ -203,14 +203,14 @@ void LockstepListeners::summarize(diagnostic_updater::DiagnosticStatusWrapper& s
     return;
   }
   if (const std::string waits = waitsFor(); !waits.empty()) {
-    status.mergeSummary(DiagnosticStatus::WARN, "lockstep: waits for " + waits);
+    status.mergeSummary(DiagnosticStatus::WARN, "lockstep: waiting for " + waits);
   }
   if (const std::string out = joined(lockstep_.leftOut()); !out.empty()) {
     status.mergeSummary(live_.paused() ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
-                        "lockstep: nothing is acknowledged by " + out);
+                        "lockstep: no acknowledgement by " + out);
   }
   status.add("lockstep with", joined(lockstep_.settings().who));
-  status.add("stray acknowledgements", strays_.load(std::memory_order_relaxed));
+  status.add("unexpected acknowledgements", strays_.load(std::memory_order_relaxed));
 }
 
 }  // namespace whirl_twin

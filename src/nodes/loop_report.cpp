@@ -100,14 +100,14 @@ void LoopDiagnostics::summarize(const state::LoopStatistics& loop, double time,
     status.mergeSummary(DiagnosticStatus::WARN, "a subscriber is too slow: messages were lost");
   }
   if (skipped_.roseLately(loop.skipped_steps, time)) {
-    status.mergeSummary(DiagnosticStatus::WARN, "steps were skipped: the machine was late");
+    status.mergeSummary(DiagnosticStatus::WARN, "steps were skipped: the computer was too slow");
   }
   for (std::size_t i = 0; i < loop.system.size(); ++i) {
     if (loop.stopped[i] != 0) {
       status.mergeSummary(DiagnosticStatus::ERROR, loop.stopped_why[i]);
     } else if (loop.error_estimate[i] > loop.tolerance[i]) {
       status.mergeSummaryf(DiagnosticStatus::WARN,
-                           "%s: error about %.1e over its horizon, its tolerance is %g",
+                           "%s: error about %.1e over the horizon, tolerance %g",
                            loop.system[i].c_str(), loop.error_estimate[i], loop.tolerance[i]);
     }
   }
@@ -118,7 +118,7 @@ void LoopDiagnostics::summarize(const state::LoopStatistics& loop, double time,
   status.add("memory locked", loop.memory_locked);
   status.add("processor", loop.cpu);
   status.add("overruns", loop.overruns);
-  status.add("overruns for being woken late", loop.late_wakeups);
+  status.add("overruns by late wake-up", loop.late_wakeups);
   status.add("skipped steps", loop.skipped_steps);
   status.add("dropped states", loop.dropped_snapshots);
   status.add("messages not sent on LCM", loop.lcm_failed);

@@ -42,18 +42,17 @@ namespace {
 
 constexpr const char* kHelp =
     "usage: monitor_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "The monitor: live states in, by ROS or by LCM; stability margins and the list of alerts out. "
-    "It needs the scene on\n"
-    "the parameter server.\n"
+    "The monitor: receives live states by ROS or by LCM; publishes stability margins and the list\n"
+    "of alerts. It needs the scene on the parameter server.\n"
     "\n"
     "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
-    "  ~source      ros or lcm, default ros: where all that it watches comes from\n"
+    "  ~source      ros or lcm, default ros: source of all messages it monitors\n"
     "  ~lcm_url     default udpm://239.255.76.67:7667?ttl=0; empty: no LCM\n"
-    "  ~lcm_prefix  what the twin's LCM channels begin with, default TWIN_, or its namespace in "
+    "  ~lcm_prefix  prefix of the twin's LCM channels, default TWIN_, or its namespace in "
     "capitals\n"
-    "  ~history     a file: every change of its alarms is kept there, and read when it starts; "
-    "default: none\n"
-    "  ~await_scene  s, that it waits for the scene, which a log that is played brings; default 0\n"
+    "  ~history     a file: every change of the alarms is saved in it and restored at start;\n"
+    "               default: none\n"
+    "  ~await_scene  s, longest wait for the scene, which a played log brings; default 0\n"
     "The limits of its alarms are those of config/monitor.yaml, where each is explained:\n"
     "  <rosparam command=\"load\" file=\"$(find whirl_twin)/config/monitor.yaml\"/>\n";
 
@@ -88,7 +87,7 @@ class MonitorNode {
         watched_scene_(sceneLines(given_.tree), given_.source),
         settings_(alarmSettingsOf(scene_)),
         monitor_(scene_, settings_.settings(), Judging::Mode::kBeside),
-        url_(privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl)),
+        url_(privateParameter<std::string>("lcm_url", "an LCM URL, or nothing", kDefaultLcmUrl)),
         lcm_(url_, lcmPrefixParameter()),
         rivals_(lcm_.prefix()),
         topics_(node, kPublishQueue),
@@ -119,7 +118,7 @@ class MonitorNode {
       subscribe();
     } else if (source == "lcm") {
       if (url_.empty()) {
-        throw Refusal("lcm_url: source is lcm, expected an LCM url, found nothing");
+        throw Refusal("lcm_url: must be an LCM URL with source lcm, found nothing");
       }
       receive(url_);
     } else {
@@ -231,8 +230,7 @@ class MonitorNode {
   void takeState(const state::ParameterChange& change) {
     if (!monitor_.take(change)) {
       ++rejected_;
-      ROS_WARN("rejected: parameters of '%s' that are not those of the scene",
-               change.system.c_str());
+      ROS_WARN("rejected: parameters of '%s' do not match the scene", change.system.c_str());
     }
   }
   void takeState(const state::LoopStatistics& loop) {
@@ -241,7 +239,7 @@ class MonitorNode {
     }
     if (monitor_.run() && simulation_ != monitor_.run()->first) {
       if (simulation_) {
-        ROS_WARN("another run is watched from now on, of %s", monitor_.watched().c_str());
+        ROS_WARN("another run is monitored from now on, of %s", monitor_.watched().c_str());
       }
       simulation_ = monitor_.run()->first;
       watched_scene_.follow(simulation_);
@@ -252,14 +250,14 @@ class MonitorNode {
     watched_scene_.take(scene, simulation_);
     if (watched_scene_.mismatch() != before) {
       ROS_WARN("%s", before.empty() ? watched_scene_.mismatch().c_str()
-                                    : "the twin runs the scene of the monitor");
+                                    : "twin and monitor have the same scene");
     }
   }
   /// Before anything is judged.
   void askForScene() {
     const double heard_for = wallTime() - first_arrival_;
     const bool waits = !watched_scene_.told() && heard_for >= 0.0 && heard_for < kScenePatience;
-    monitor_.setUncertain(waits ? "the scene of the twin has not come yet"
+    monitor_.setUncertain(waits ? "the scene of the twin was not received yet"
                                 : watched_scene_.mismatch());
   }
   template <class State>
@@ -316,14 +314,14 @@ class MonitorNode {
     const auto acknowledged = std::count_if(
         active.begin(), active.end(), [](const state::Alert& alert) { return alert.acknowledged; });
     if (!paused_ && wallTime() - newest_arrival_ > monitor_.settings().data_timeout) {
-      status.mergeSummary(DiagnosticStatus::WARN, "no states arrive: nothing is being watched");
+      status.mergeSummary(DiagnosticStatus::WARN, "no states are received: nothing is monitored");
     }
     const std::vector<std::string> not_ok = monitor_.notOk(wallTime(), paused_);
     const std::vector<std::string> systems = monitor_.systemNames();
     for (std::size_t i = 0; i < systems.size(); ++i) {
       if (!not_ok[i].empty()) {
         status.mergeSummary(DiagnosticStatus::WARN, systems[i] + ": " + not_ok[i]);
-        status.add(systems[i] + " not OK", not_ok[i]);
+        status.add(systems[i] + " data quality", not_ok[i]);
       }
     }
     if (const std::string problem = history_.problem(); !problem.empty()) {
@@ -334,8 +332,8 @@ class MonitorNode {
     status.add("simulated time [s]", monitor_.time());
     status.add("watches", monitor_.watched());
     status.add("statistics of other twins", monitor_.ofOthers());
-    status.add("commands about alarms", services_.taken());
-    status.add("refused commands about alarms", services_.refused());
+    status.add("alarm commands", services_.taken());
+    status.add("refused alarm commands", services_.refused());
     status.add("rejected messages", rejected_ + (receiver_ ? receiver_->rejected() : 0));
   }
 

@@ -60,7 +60,7 @@ Value privateParameter(const char* name, const char* expected, const Value& fall
       (node.getParam(name, given) && given.getType() == XmlRpc::XmlRpcValue::TypeInt);
   if (!whole || !node.getParam(name, value)) {
     throw Refusal(
-        fmt::format("{}: expected {}, found another type", node.resolveName(name), expected));
+        fmt::format("{}: must be {}, found another type", node.resolveName(name), expected));
   }
   return value;
 }

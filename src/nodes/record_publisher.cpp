@@ -259,14 +259,14 @@ void RecordPublisher::publishReport() {
   report.waits_for = lockstep_.waitsFor();
   addStepTimes(live_, report);
   if (report.lcm_failed > lcm_failed_told_) {
-    ROS_WARN("%lu messages could not be sent on LCM, %lu in all: is there a route for multicast?",
+    ROS_WARN("%lu messages could not be sent on LCM, %lu in all: check the multicast route",
              static_cast<unsigned long>(report.lcm_failed - lcm_failed_told_),
              static_cast<unsigned long>(report.lcm_failed));
   }
   lcm_failed_told_ = report.lcm_failed;
   if (report.ros_lost > ros_lost_told_) {
     const std::string& topic = states_.ros().lostLast();
-    ROS_WARN_THROTTLE(10.0, "a subscriber of %s is too slow: %lu messages lost; it goes to %s",
+    ROS_WARN_THROTTLE(10.0, "a subscriber of %s is too slow: %lu messages lost; subscribers: %s",
                       topic.c_str(), static_cast<unsigned long>(report.ros_lost),
                       fmt::format("{}", fmt::join(listenersOf(topic), ", ")).c_str());
   }
@@ -275,7 +275,7 @@ void RecordPublisher::publishReport() {
   for (std::size_t i = 0; i < inaccurate_.size(); ++i) {
     const bool lost = report.error_estimate[i] > report.tolerance[i];
     if (lost && !inaccurate_[i]) {
-      ROS_WARN("%s: error about %.1g over its horizon, more than its tolerance %g (ACCURACY_LOST)",
+      ROS_WARN("%s: error about %.1g over the horizon, above the tolerance %g (ACCURACY_LOST)",
                report.system[i].c_str(), report.error_estimate[i], report.tolerance[i]);
     }
     inaccurate_[i] = lost;

@@ -34,13 +34,13 @@ void reportMaster(const MasterWatch& master, diagnostic_updater::Updater& diagno
   diagnostics.add("ROS master", [&master](Status& status) {
     const std::string trouble = master.trouble();
     status.summary(trouble.empty() ? DiagnosticStatus::OK : DiagnosticStatus::ERROR,
-                   trouble.empty() ? "this node is known to it" : trouble);
+                   trouble.empty() ? "this node is registered" : trouble);
   });
 }
 
 LcmRivals::LcmRivals(const std::string& lcm_prefix)
     : senders_(fmt::format("the LCM channels {}*", lcm_prefix),
-               "give one of them an ~lcm_prefix of its own, or end it"),
+               "give one of them another ~lcm_prefix, or stop it"),
       prefix_(lcm_prefix) {}
 
 void LcmRivals::listen(const std::string& lcm_url) {
@@ -51,7 +51,7 @@ void LcmRivals::listen(const std::string& lcm_url) {
     listener_ = std::make_unique<ChannelListener>(
         lcm_url, channelName(state::LoopStatistics::kKind, "", prefix_));
   } catch (const LcmNotAvailable& problem) {
-    ROS_WARN("%s; another twin on its channels would not be noticed", problem.what());
+    ROS_WARN("%s; a duplicate publisher on its channels cannot be detected", problem.what());
   }
 }
 
@@ -80,7 +80,7 @@ void LcmRivals::report(diagnostic_updater::Updater& diagnostics) {
   diagnostics.add("LCM channels", [this](Status& status) {
     const std::string found = trouble();
     status.summary(found.empty() ? DiagnosticStatus::OK : DiagnosticStatus::ERROR,
-                   found.empty() ? "one twin at most" : found);
+                   found.empty() ? "no duplicate publisher" : found);
   });
 }
 
@@ -89,7 +89,7 @@ std::string LcmRivals::trouble() {
   std::string found = senders_.trouble(now());
   if (found != told_) {
     if (found.empty()) {
-      ROS_INFO("one twin at most is left on its LCM channels");
+      ROS_INFO("no duplicate publisher is left on its LCM channels");
     } else {
       ROS_ERROR("%s", found.c_str());
     }

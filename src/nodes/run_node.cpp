@@ -1,12 +1,14 @@
 #include "nodes/run_node.h"
 
 #include <ros/ros.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -22,10 +24,22 @@ namespace {
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 
-/// The second signal of a kind ends the process at once, in case something does not look.
+/// [s] from a signal to the end of the process, whatever it does: roslaunch kills after 15 s
+/// without a message.
+constexpr unsigned kLongestEnd = 12;
+
+/// Something blocks, as a master that accepts a call and does not answer it.
+void endNow(int) {
+  constexpr char kText[] = "the node did not end within 12 s of the signal: the process ends now\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kText, sizeof kText - 1);
+  std::_Exit(1);
+}
+
+/// The second signal of a kind ends the process at once.
 void requestStop(int signal) {
   stop_requested.store(true);
   std::signal(signal, SIG_DFL);
+  ::alarm(kLongestEnd);
 }
 
 /// False if a signal came first. (Without a master a first topic or service waits for ever, and is
@@ -98,6 +112,7 @@ int runNode(int argc, char** argv, const char* name, const char* help,
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
     std::signal(SIGINT, requestStop);
     std::signal(SIGTERM, requestStop);
+    std::signal(SIGALRM, endNow);
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is like a disk that is full
     if (waitForMaster(name)) {
       const ros::NodeHandle

@@ -47,46 +47,40 @@ namespace {
 
 constexpr const char* kHelp =
     "usage: simulation_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "The simulation: reads the scene from the parameter server (scene, in the namespace of its "
-    "twin: /twin/scene for a\n"
-    "node in the root namespace), steps it at a fixed rate, publishes its states on ROS and LCM, "
-    "and serves changes.\n"
+    "The simulation: reads the scene from the parameter server (scene, in the namespace of its\n"
+    "twin: /twin/scene for a node in the root namespace), steps it at a fixed rate, publishes its\n"
+    "states on ROS and LCM, and serves changes.\n"
     "\n"
     "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
     "  ~publish_rate      Hz, default 0: every step\n"
-    "  ~batch             s, 0 to 0.1, that states may wait to be sent together, default 0\n"
-    "  ~real_time_factor  simulated seconds in one of wall time, 0.01 to 1000, default 1; 0: as "
-    "fast as it goes\n"
+    "  ~batch             s, 0 to 0.1, longest delay of states sent together, default 0\n"
+    "  ~real_time_factor  simulated seconds per second of wall time, 0.01 to 1000, default 1;\n"
+    "                     0: as fast as possible\n"
     "  ~lcm_url           default udpm://239.255.76.67:7667?ttl=0; empty: no LCM\n"
-    "  ~lcm_prefix        what its LCM channels begin with, default TWIN_, or its namespace in "
-    "capitals\n"
-    "  ~realtime          enforce, warn or ignore, default warn: what is done without real-time "
-    "priority\n"
+    "  ~lcm_prefix        prefix of its LCM channels, default TWIN_, or its namespace in capitals\n"
+    "  ~realtime          enforce, warn or ignore, default warn: reaction to missing real-time\n"
+    "                     priority\n"
     "  ~priority          SCHED_FIFO priority, default 50\n"
-    "  ~cpu               the processor that the loop keeps to, default -1: any\n"
-    "  ~give_up           s of late steps without a break after which it ends, default 0: never\n"
-    "  ~busy_wait         s before a step that the loop waits awake for it, up to half a step, "
-    "default 0\n"
-    "  ~overrun           skip, catch_up or stop, default skip: what is done about late steps\n"
-    "  ~clock             true or false, default false: publish simulated time on /clock and stamp "
-    "messages with it\n"
+    "  ~cpu               the processor of the loop, default -1: any\n"
+    "  ~give_up           s of uninterrupted overruns after which it exits, default 0: never\n"
+    "  ~busy_wait         s of busy waiting before each step, up to half a step, default 0\n"
+    "  ~overrun           skip, catch_up or stop, default skip: reaction to overruns\n"
+    "  ~clock             true or false, default false: publish simulated time on /clock and "
+    "stamp\n"
+    "                     messages with it\n"
     "  ~clock_rate        Hz, of /clock, default 250\n"
-    "  ~paused            true or false, default false: stands at its start until ~resume or "
+    "  ~paused            true or false, default false: paused at its start until ~resume or "
     "~step\n"
-    "  ~lockstep          nodes, separated by commas, that acknowledge each step on the topic "
-    "lockstep, and that\n"
-    "                     simulated time waits for; default: none\n"
-    "  ~lockstep_ahead    publications beyond what is acknowledged, 1 to 1000, default 1\n"
+    "  ~lockstep          nodes, separated by commas, that acknowledge each step on the topic\n"
+    "                     lockstep before simulated time continues; default: none\n"
+    "  ~lockstep_ahead    publications ahead of the last acknowledged one, 1 to 1000, default 1\n"
     "  ~lockstep_timeout  s without an acknowledgement after which it pauses, default 5\n"
-    "  ~measure           true or false, default false: tell what the scene's sensors see, on "
-    "measured/SOURCE\n"
-    "  ~checkpoint        a file, in which the twin is saved while it runs and at its end; "
-    "default: "
-    "none\n"
-    "  ~checkpoint_period s, from one saving to the next, 0.1 to 1e6, default 5\n"
-    "  ~resume            a checkpoint, from which it goes on to the bit; default: from the "
-    "scene's "
-    "start\n";
+    "  ~measure           true or false, default false: publish the measurements of the scene's\n"
+    "                     sensors on measured/SOURCE\n"
+    "  ~checkpoint        a file, in which the twin is saved while it runs and at its end;\n"
+    "                     default: none\n"
+    "  ~checkpoint_period s between two checkpoints, 0.1 to 1e6, default 5\n"
+    "  ~resume            a checkpoint to resume, bit-identical; default: the scene's start\n";
 
 constexpr double kClockRate = 250.0;               // Hz
 constexpr double kSlowestClock = 1.0e-3;           // Hz
@@ -133,7 +127,7 @@ SimulationSettings readSettings(const Scene& scene) {
     throw Refusal(fmt::format("batch: must be from 0 to {:g} s, found {}", kLongestBatch, batch));
   }
   s.batch = std::chrono::microseconds(std::llround(batch * 1.0e6));
-  s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
+  s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM URL, or nothing", kDefaultLcmUrl);
   s.lcm_prefix = lcmPrefixParameter();
   s.clock = privateParameter("clock", "true or false", false);
   if (s.clock && scene.time < 0) {
@@ -228,7 +222,7 @@ void run() {
       settings.measure);
   if (resumed) {
     publisher.putBack(*resumed, settings.resume);
-    ROS_INFO("goes on from step %ld, t = %g s, of %s", static_cast<long>(resumed->step),
+    ROS_INFO("resumed from step %ld, t = %g s, of %s", static_cast<long>(resumed->step),
              live.twin().time(), settings.resume.c_str());
   }
   CheckpointSaver saver(live, lines, settings.checkpoint, settings.checkpoint_period, services,
@@ -240,7 +234,7 @@ void run() {
             live.resetStepTimes();
             publisher.resetCounts();
             response.success = 1;
-            response.message = "latencies and counts begin anew";
+            response.message = "latencies and counts were reset";
             return true;
           });
 
@@ -265,11 +259,11 @@ void run() {
     }
     lockstep.summarize(status);
     if (external.any()) {
-      status.add("refused commands of controllers", external.refused());
+      status.add("refused controller commands", external.refused());
     }
     if (commands.any()) {
-      status.add("commands to inputs", commands.taken());
-      status.add("refused commands to inputs", commands.refused());
+      status.add("input commands", commands.taken());
+      status.add("refused input commands", commands.refused());
     }
   });
 
@@ -329,10 +323,10 @@ void run() {
   master.stop();
   ros::shutdown();
   if (loop.gaveUp()) {
-    throw RunFailure("every step ended too late for as long as the parameter give_up says");
+    throw RunFailure("every step was an overrun for the time of the parameter give_up");
   }
   if (by_itself) {
-    throw RunFailure("a step ended too late, and the parameter overrun says stop");
+    throw RunFailure("a step was an overrun, and the parameter overrun is stop");
   }
 }
 

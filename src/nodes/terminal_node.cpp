@@ -20,9 +20,8 @@ namespace {
 
 constexpr const char* kHelp =
     "usage: terminal_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "The state of a twin in a terminal: a line for each system, rewritten in place; alerts stay. "
-    "Into a file or a pipe\n"
-    "goes one line a second. It has no parameters.\n";
+    "The state of a twin in a terminal: a line for each system, rewritten in place; alerts "
+    "remain.\nTo a file or a pipe one line per second is written. It has no parameters.\n";
 
 class TerminalDisplay {
  public:

@@ -25,12 +25,11 @@ constexpr const char* kEnded = "the simulation is ending";
 }  // namespace
 
 std::string factorFault(double factor) {
-  return Pace::canBe(factor)
-             ? ""
-             : fmt::format(
-                   "real_time_factor: must be 0 (as fast as it goes), or from {:g} to {:g}, "
-                   "found {}",
-                   Pace::kSlowest, Pace::kFastest, factor);
+  return Pace::canBe(factor) ? ""
+                             : fmt::format(
+                                   "real_time_factor: must be 0 (as fast as possible), or from "
+                                   "{:g} to {:g}, found {}",
+                                   Pace::kSlowest, Pace::kFastest, factor);
 }
 
 TwinServices::TwinServices(LiveTwin& twin, ros::NodeHandle node, std::function<bool()> keep_waiting)
@@ -134,7 +133,7 @@ bool TwinServices::step(StepN::Request& request, StepN::Response& response) {
   response.time = twin_.twin().seconds(answer.step);
   response.message = !carried_out  ? kEnded
                      : answer.done ? fmt::format("{} steps done", request.steps)
-                     : paused      ? fmt::format("ended by a pause at step {}", answer.step)
+                     : paused      ? fmt::format("interrupted by a pause at step {}", answer.step)
                                    : "not paused: call pause first";
   return true;
 }
@@ -157,8 +156,8 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
     return true;
   }
   if (found->motor) {
-    response.message = fmt::format("drive: {} is a motor: its speed is what its torque makes of it",
-                                   request.drive);
+    response.message = fmt::format(
+        "drive: must not be a motor, whose speed is not prescribed, found {}", request.drive);
     return true;
   }
   if (const auto fault =
@@ -191,12 +190,12 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
   response.success = answer.done;
   response.duration = answer.duration;
   response.speed = answer.done ? command.speed : std::nan("");
-  response.message = answer.done
-                         ? fmt::format("{} goes to {:.6g} rad/s in {:.6g} s", request.drive,
-                                       command.speed, answer.duration)
-                         : "the move cannot be made: it would last too long or run too fast";
+  response.message =
+      answer.done ? fmt::format("{} reaches {:.6g} rad/s in {:.6g} s", request.drive, command.speed,
+                                answer.duration)
+                  : "the move is not possible: it would last too long or exceed the largest speed";
   if (answer.done && command.speed != request.speed) {
-    response.message += fmt::format(": {} rad/s is in a band that it avoids", request.speed);
+    response.message += fmt::format(": {} rad/s is in a barred speed range", request.speed);
   }
   return true;
 }
@@ -229,7 +228,7 @@ std::string TwinServices::readInput(const std::string& system_name, const std::s
     }
   }
   if (!found) {
-    return fmt::format("input: must be one that the scene gives as a number, found {}{}",
+    return fmt::format("input: must be an input given as a number in the scene, found {}{}",
                        quoted(input),
                        commanded.empty() ? "; there are none" : hint(input, commanded));
   }
@@ -278,7 +277,7 @@ std::string TwinServices::take(const state::InputCommand& given, const std::stri
   }
   for (const TwinCommand& command : commands) {
     if (!twin_.send(command)) {
-      return "the loop is far behind with earlier commands";
+      return "the command queue of the loop is full";
     }
   }
   for (std::size_t i = 0; i < commands.size(); ++i) {
@@ -335,8 +334,8 @@ bool TwinServices::setRealTimeFactor(SetRealTimeFactor::Request& request,
   if (response.success) {
     twin_.setPace(request.factor);
     response.message = request.factor == Pace::kAsFastAsItGoes
-                           ? "as fast as it goes and is published"
-                           : fmt::format("{:g} simulated seconds in one", request.factor);
+                           ? "as fast as it can be published"
+                           : fmt::format("{:g} simulated seconds per second", request.factor);
   }
   return true;
 }

@@ -34,12 +34,13 @@ namespace {
 
 constexpr const char* kHelp =
     "usage: visualization_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "States of a twin to rviz: markers and tf frames of its systems, its margins and its alarms.\n"
+    "Shows the states of a twin in rviz: markers and tf frames of its systems, margins and "
+    "alarms.\n"
     "\n"
     "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
-    "  ~rate         Hz, default 30: frames a second\n"
-    "  ~whirl_scale  how much larger the whirl is drawn, default 0: a round number chosen to fit\n"
-    "  ~trail_turns  turns, default 3: length of the orbit's trail\n"
+    "  ~rate         Hz, default 30: frames per second\n"
+    "  ~whirl_scale  magnification of the whirl, default 0: chosen automatically\n"
+    "  ~trail_turns  revolutions, default 3: length of the orbit's trail\n"
     "  ~monitor      the node whose limits are drawn, default monitor_node\n";
 
 const ros::WallDuration kMeasuredFor(1.0);  // what was measured is shown

@@ -88,7 +88,7 @@ std::string sketchImage(const SketchPicture& picture, ImageFormat format) {
   Canvas canvas(format, static_cast<int>(std::lround(sheet_width)),
                 static_cast<int>(std::lround(sheet_height)), picture.title,
                 picture.note.empty()
-                    ? fmt::format("{} later positions faintly", picture.ghosts.size())
+                    ? fmt::format("{} later positions (faint)", picture.ghosts.size())
                     : picture.note);
   canvas.text({0.5 * sheet_width, 20.0}, picture.title, title);
   for (auto ghost = picture.ghosts.rbegin(); ghost != picture.ghosts.rend(); ++ghost) {

@@ -63,7 +63,7 @@ auto infosOf(const char* base_class) {
       try {
         all.push_back(loader.createUniqueInstance(name)->info());
       } catch (const std::exception& error) {
-        warn("the plugin " + name + " is left out: " + error.what());
+        warn("the plugin " + name + " is not loaded: " + error.what());
       }
     }
   } catch (const std::exception& error) {

@@ -127,7 +127,7 @@ RealtimeStatus FixedRateLoop::status() const {
   const std::lock_guard<std::mutex> lock(control_mutex_);
   RealtimeStatus status = status_;
   if (!running() && !failure_.empty()) {
-    status.warnings.push_back("the loop has ended: its cycle threw: " + failure_);
+    status.warnings.push_back("the loop has ended: its cycle failed: " + failure_);
   }
   return status;
 }
@@ -180,7 +180,7 @@ void FixedRateLoop::run() noexcept {
   } catch (const std::exception& thrown) {
     failure_ = thrown.what();
   } catch (...) {
-    failure_ = "something that is not a std::exception";
+    failure_ = "an exception that is not a std::exception";
   }
 }
 

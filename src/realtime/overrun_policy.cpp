@@ -25,7 +25,7 @@ OverrunPolicy parseOverrunPolicy(const std::string& name) {
       return policy;
     }
   }
-  throw Refusal("overrun policy: expected skip, catch_up or stop, found \"" + name + "\"");
+  throw Refusal("overrun policy: must be skip, catch_up or stop, found \"" + name + "\"");
 }
 
 }  // namespace whirl_twin

@@ -94,7 +94,7 @@ RealtimeMode parseRealtimeMode(const std::string& name) {
       return mode;
     }
   }
-  throw Refusal("realtime: expected enforce, warn or ignore, found \"" + name + "\"");
+  throw Refusal("realtime: must be enforce, warn or ignore, found \"" + name + "\"");
 }
 
 void lockMemory(RealtimeMode mode, RealtimeStatus& status) {
@@ -192,8 +192,8 @@ void keepThisThreadTo(int cpu, RealtimeMode mode, RealtimeStatus& status) {
   }
   if (error != 0 && mode != RealtimeMode::kIgnore) {
     notObtained(mode,
-                fmt::format("not kept to processor {}: {}: expected one of those that this process "
-                            "may run on (taskset -cp {})",
+                fmt::format("not pinned to processor {}: {}: must be a processor that this process "
+                            "may use (taskset -cp {})",
                             cpu, std::strerror(error), getpid()),
                 status);
   }
@@ -208,7 +208,7 @@ ProcessorAwake::ProcessorAwake(RealtimeMode mode, RealtimeStatus& status) {
   file_ = open(kFile, O_WRONLY | O_CLOEXEC);
   if (file_ < 0 || write(file_, &longest_wake_up, sizeof longest_wake_up) < 0) {
     status.warnings.push_back(
-        fmt::format("processors may fall into deep sleep: {}: {}", kFile, std::strerror(errno)));
+        fmt::format("processors may enter deep sleep: {}: {}", kFile, std::strerror(errno)));
   }
 }
 

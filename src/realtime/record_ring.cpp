@@ -17,7 +17,7 @@ std::size_t doublesNeeded(std::size_t record_size, std::size_t capacity_records)
   }
   if (capacity_records > std::numeric_limits<std::size_t>::max() / sizeof(double) / record_size) {
     throw std::logic_error("record ring: " + std::to_string(capacity_records) + " records of " +
-                           std::to_string(record_size) + " doubles are more than memory can hold");
+                           std::to_string(record_size) + " doubles exceed the memory");
   }
   return record_size * capacity_records;
 }

@@ -190,14 +190,14 @@ bool isTold() {
 void tell(const AskedCost& cost, bool insist) {
   const double free = freeMemory();
   if (!insist && cost.seconds > kDay) {
-    throw Refusal(fmt::format("{}: takes about {}; ask for less, or --insist", cost.cause,
+    throw Refusal(fmt::format("{}: takes about {}; reduce it, or run it with --insist", cost.cause,
                               inWords(cost.seconds)));
   }
   if (!insist && cost.memory > free) {
-    throw Refusal(
-        fmt::format("{}: takes about {:.0f} GB of memory, and {:.0f} GB are free; ask for less, or "
-                    "--insist",
-                    cost.cause, 1.0e-9 * cost.memory, 1.0e-9 * free));
+    throw Refusal(fmt::format(
+        "{}: takes about {:.0f} GB of memory, and {:.0f} GB are free; reduce it, or run it with "
+        "--insist",
+        cost.cause, 1.0e-9 * cost.memory, 1.0e-9 * free));
   }
   if (cost.seconds > kLong) {
     told.store(true);

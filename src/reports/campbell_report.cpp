@@ -44,11 +44,11 @@ Json branchJson(const std::vector<CampbellPoint>& branch) {
 
 std::string crossingsText(const CampbellReport& r) {
   if (r.diagram.crossings.empty()) {
-    return "  critical speeds, where a whirl (damping ratio up to 0.7) meets the speed: none in "
-           "the range\n";
+    return "  critical speeds, where a whirl (damping ratio up to 0.7) crosses the speed line: "
+           "none in the range\n";
   }
   std::string out =
-      "  critical speeds, where a whirl (damping ratio up to 0.7) meets the speed\n"
+      "  critical speeds, where a whirl (damping ratio up to 0.7) crosses the speed line\n"
       "           rad/s         rpm  order  branch  direction   log decrement\n";
   for (const CampbellCrossing& c : r.diagram.crossings) {
     out += fmt::format("    {:>12.6g} {:>11.6g} {:>5g}X {:>7}  {:<9} {:>15}{}\n", c.speed,
@@ -191,7 +191,7 @@ std::string text(const CampbellReport& r) {
     out += fmt::format(
         "    {:.6g}, amplification {}{}{}\n", peak.speed, defined(peak.amplification_factor, "-"),
         band.empty() ? std::string(": critically damped")
-                     : fmt::format(": keep out of {:.5g} to {:.5g}", band.from, band.to),
+                     : fmt::format(": separation margin {:.5g} to {:.5g}", band.from, band.to),
         beyondMark(data, peak.speed));
   }
   if (r.peaks.empty()) {
@@ -200,12 +200,11 @@ std::string text(const CampbellReport& r) {
   out += beyondLine(data, r.range.from, r.range.to);
   return r.range.to <= r.system->rotor.highest_speed
              ? out
-             : out +
-                   fmt::format(
-                       "  the reduced rotor holds up to {:g} rad/s: {} crossings and undamped "
-                       "critical speeds\n  beyond are left out, and its branches are not those of "
-                       "the machine there\n",
-                       r.system->rotor.highest_speed, r.beyond);
+             : out + fmt::format(
+                         "  the reduced-order rotor is valid up to {:g} rad/s: {} crossings and "
+                         "undamped critical speeds\n  above are left out, and its branches are not "
+                         "those of the machine there\n",
+                         r.system->rotor.highest_speed, r.beyond);
 }
 
 }  // namespace whirl_twin

@@ -94,7 +94,8 @@ std::pair<double, double> rangeOf(const CriticalMapRequest& request, const Criti
     least = most = kUsual;
   }
   if (!(most > 0.0)) {
-    throw Refusal("critical speed map: expected bearings that hold the rotor, kxx or kyy > 0");
+    throw Refusal(
+        "critical speed map: the bearings must support the rotor (kxx or kyy > 0), found none");
   }
   const double to =
       request.to.value_or(std::min(std::pow(10.0, std::ceil(std::log10(most)) + 2), kStiffest));
@@ -102,8 +103,8 @@ std::pair<double, double> rangeOf(const CriticalMapRequest& request, const Criti
       10.0, std::floor(std::log10(std::min(std::max(least, 1e-3 * most), 1e-3 * kStiffest))) - 1));
   if (!(from > 0.0 && from < to && to <= kStiffest)) {
     throw Refusal(fmt::format(
-        "--from, --to: expected stiffnesses above 0, --from below --to, found {:g} and {:g} N/m",
-        from, to));
+        "--from, --to: must be stiffnesses > 0 with --from < --to, found {:g} and {:g} N/m", from,
+        to));
   }
   return {from, to};
 }
@@ -128,7 +129,7 @@ Series beyondTables(const CriticalMapReport& r, Series curve) {
 
 CriticalMapReport criticalMapReport(const RotorSystem& system, const CriticalMapRequest& request) {
   if (!system.shaft) {
-    throw Refusal(fmt::format("{}: expected a flexible_rotor: the others have no bearings to vary",
+    throw Refusal(fmt::format("{}: must be a flexible_rotor, the only model with bearings to vary",
                               system.title()));
   }
   if (request.points < 2 || request.points > 1000) {
@@ -239,8 +240,9 @@ std::string text(const CriticalMapReport& r) {
                        beyondMark(r.system->tables(), r.speeds.back()));
   }
   if (!r.left_out.empty()) {
-    out += fmt::format("    left out: the bearings at {} {}, which do not carry it (--bearing)\n",
-                       r.left_out.size() == 1 ? "node" : "nodes", fmt::join(r.left_out, ", "));
+    out += fmt::format(
+        "    left out: the bearings at {} {}, too soft to carry the rotor (--bearing)\n",
+        r.left_out.size() == 1 ? "node" : "nodes", fmt::join(r.left_out, ", "));
   }
   out += beyondLine(r.system->tables(), r.speeds.front(), r.speeds.back());
   return r.pedestals ? out +

@@ -47,7 +47,7 @@ Column columnOf(const std::string& heading, Complaints& complaints) {
   known.insert(known.end(), {"axial_force", "count"});
   if (std::find(known.begin(), known.end(), column.name) == known.end()) {
     complaints.add(fmt::format("column '{}'", printable(heading)),
-                   "is none of a shaft's elements" + hint(column.name, known));
+                   "is not a column of shaft elements" + hint(column.name, known));
     return column;
   }
   if (bracket != std::string::npos) {
@@ -59,7 +59,7 @@ Column columnOf(const std::string& heading, Complaints& complaints) {
     column.scale = unitScale(unit, wanted);
     if (column.scale == 0.0) {
       complaints.add(fmt::format("column '{}'", printable(heading)),
-                     fmt::format("must be in {} or a unit of its kind", wanted));
+                     fmt::format("must be in {} or a convertible unit", wanted));
     }
   }
   return column;
@@ -82,7 +82,7 @@ RotorDrawing drawingOfElements(const std::string& path) {
   for (const char* needed : {"length", "outer_diameter"}) {
     if (std::none_of(columns.begin(), columns.end(),
                      [&](const Column& column) { return column.name == needed; })) {
-      complaints.add("", fmt::format("its first line names no column '{}'", needed));
+      complaints.add("", fmt::format("the first line must name a column '{}'", needed));
     }
   }
   RotorDrawing drawing;

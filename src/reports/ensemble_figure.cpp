@@ -65,7 +65,7 @@ Chart courseChart(const Ensemble& ensemble, const PlotHistory& history, std::siz
   chart.series[2].pen = Pen{ink::kBlue, 1.8};
   chart.series[3].pen = Pen{ink::kGrey, 1.0, {4.0, 3.0}};
   Series given{
-      "as given", history.time,
+      "nominal", history.time,
       q.name == "radius" ? whirlAbout(ensemble.rest(), history) : history.coordinates[quantity]};
   given.pen = Pen{ink::kVermilion, 1.4};
   chart.series.push_back(given);
@@ -86,8 +86,8 @@ Chart peakChart(const Ensemble& ensemble, std::size_t quantity) {
   }
   const EnsembleQuantity& q = ensemble.quantities()[quantity];
   Chart chart;
-  chart.x = {fmt::format("largest {} of a member ({})", q.name, q.unit), false, true};
-  chart.y.label = "members";
+  chart.x = {fmt::format("largest {} of a sample ({})", q.name, q.unit), false, true};
+  chart.y.label = "samples";
   if (peaks.empty()) {
     return chart;
   }

@@ -45,10 +45,10 @@ Figure figure(const FitStudy& study, const ShootingFit& fit, std::size_t run) {
   figure.width = 940;
   figure.chart_height = 300;
   Chart left, lines;
-  left.title = "measured less predicted";
+  left.title = "residual (measured - predicted)";
   left.x = {"time (s)", false, true};
   left.y = {"difference"};
-  lines.title = "spectrum of the difference";
+  lines.title = "spectrum of the residual";
   lines.x = {"frequency (Hz)", true, true};
   lines.y = {"amplitude", true};
   for (std::size_t i = 0; i < one.measured.size(); ++i) {
@@ -56,7 +56,7 @@ Figure figure(const FitStudy& study, const ShootingFit& fit, std::size_t run) {
     const std::vector<double>& column = one.data.column(c.column);
     Chart both;
     both.title =
-        fmt::format("{}, rms of the difference {:.3g} {}", c.name, fit.runs[run].rms[i], c.unit);
+        fmt::format("{}, rms of the residual {:.3g} {}", c.name, fit.runs[run].rms[i], c.unit);
     both.x = {"time (s)", false, true};
     both.y = {fmt::format("{} ({})", c.name, c.unit)};
     Series measured{"measured", time, column};
@@ -75,7 +75,7 @@ Figure figure(const FitStudy& study, const ShootingFit& fit, std::size_t run) {
     left.series.push_back(rest);
     lines.series.push_back(spectrum(one.data, rest));
   }
-  left.y.label = fmt::format("difference ({})", one.measured.front().unit);
+  left.y.label = fmt::format("residual ({})", one.measured.front().unit);
   lines.y.label = fmt::format("amplitude ({})", one.measured.front().unit);
   figure.charts.push_back(left);
   figure.charts.push_back(lines);

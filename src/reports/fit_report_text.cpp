@@ -18,9 +18,9 @@ constexpr std::size_t kMostPairs = 6;
 std::string fittedParameterText(const ShootingFit& fit) {
   std::string out;
   if (fit.unknowns.empty()) {
-    return "nothing was fitted but the starts of windows\n";
+    return "only the initial states of the windows were fitted\n";
   }
-  out += fmt::format("{:<28} {:>16} {:>14}\n", "found", "value", "deviation");
+  out += fmt::format("{:<28} {:>16} {:>14}\n", "fitted", "value", "std. dev.");
   for (std::size_t i = 0; i < fit.unknowns.size(); ++i) {
     const Unknown& u = fit.unknowns[i];
     const double deviation = fit.information.deviation[static_cast<Eigen::Index>(i)];
@@ -28,7 +28,7 @@ std::string fittedParameterText(const ShootingFit& fit) {
         u.unit.empty() || u.unit == "-" ? u.name : fmt::format("{} ({})", u.name, u.unit);
     out += fmt::format(
         "  {:<26} {:>16.8g} {:>14}{}\n", printable(name), fit.theta[static_cast<Eigen::Index>(i)],
-        std::isfinite(deviation) ? fmt::format("{:.3g}", deviation) : std::string("not told"),
+        std::isfinite(deviation) ? fmt::format("{:.3g}", deviation) : std::string("unidentifiable"),
         fit.at_bound[i] ? "   at its bound" : "");
   }
   return out;
@@ -58,11 +58,11 @@ std::string correlationText(const ShootingFit& fit) {
                        fit.unknowns[static_cast<std::size_t>(pair.a)].name,
                        fit.unknowns[static_cast<std::size_t>(pair.b)].name, pair.correlation);
   }
-  return out.empty() ? "" : "hard to tell apart\n" + out;
+  return out.empty() ? "" : "strongly correlated\n" + out;
 }
 
 std::string runText(const FitStudy& study, const ShootingFit& fit) {
-  std::string out = "runs                                       rms of what is left\n";
+  std::string out = "runs                                       rms of the residual\n";
   bool persistent = false;
   for (std::size_t r = 0; r < study.runs.size(); ++r) {
     const StudyRun& run = study.runs[r];
@@ -72,7 +72,7 @@ std::string runText(const FitStudy& study, const ShootingFit& fit) {
       const double rms = fit.runs[r].rms[c];
       out += fmt::format("  {} {}", run.measured[c].name,
                          std::isfinite(rms) ? fmt::format("{:.4g} {}", rms, run.measured[c].unit)
-                                            : std::string("the motion stops on the way"));
+                                            : std::string("the motion stops before the end"));
       persistent = persistent || fit.runs[r].persistence[c] > kPersistent;
     }
     out += "\n";
@@ -87,8 +87,8 @@ std::string runText(const FitStudy& study, const ShootingFit& fit) {
   }
   if (persistent) {
     out +=
-        "What is left is not white: the model does not tell all of the motion, and values are less "
-        "certain\nthan their deviations say.\n";
+        "The residual is not white: the model does not describe all of the motion, and the values "
+        "are less\ncertain than their standard deviations.\n";
   }
   return out;
 }
@@ -103,7 +103,7 @@ std::string checkText(const FitStudy& study) {
     for (const std::string& remark : run.data.remarks) {
       out += "  " + printable(remark, 200) + "\n";
     }
-    out += run.data.remarks.empty() ? "  nothing odd\n" : "";
+    out += run.data.remarks.empty() ? "  no anomalies\n" : "";
   }
   return out;
 }
@@ -121,9 +121,10 @@ std::string directionText(const ShootingFit& fit, const UntoldDirection& directi
       parts.push_back(fmt::format("{:+.2g}", direction.parts[i]));
     }
   }
-  const std::string by = std::isfinite(direction.deviation) && direction.deviation < 1.0e6
-                             ? fmt::format("known to {:.2g} times that only", direction.deviation)
-                             : "without any effect";
+  const std::string by =
+      std::isfinite(direction.deviation) && direction.deviation < 1.0e6
+          ? fmt::format("standard deviation {:.2g} times that", direction.deviation)
+          : "without any effect";
   return names.size() == 1 ? fmt::format("{}: {}", names.front(), by)
                            : fmt::format("{} change together, by {} of their values: {}",
                                          fmt::join(names, ", "), fmt::join(parts, ", "), by);
@@ -132,7 +133,7 @@ std::string directionText(const ShootingFit& fit, const UntoldDirection& directi
 std::string text(const FitStudy& study, const ShootingFit& fit) {
   std::string out = fittedParameterText(fit);
   if (!fit.information.untold.empty()) {
-    out += "The runs do not tell (what takes part stays where it starts)\n";
+    out += "Not identifiable from the runs (these parameters keep their start values)\n";
     for (const UntoldDirection& direction : fit.information.untold) {
       out += "  " + directionText(fit, direction) + "\n";
     }

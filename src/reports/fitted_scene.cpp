@@ -102,10 +102,11 @@ std::string fittedScene(const FitStudy& study, const ShootingFit& fit, const std
     head += fmt::format("#   {:<24} {:>16.9g}  {}\n", u.name, fit.theta[k],
                         std::isfinite(deviation)
                             ? fmt::format("standard deviation {:.3g} {}", deviation, u.unit)
-                            : std::string("not told by the runs: as it was"));
+                            : std::string("not identifiable from the runs: unchanged"));
   }
   for (const UntoldDirection& direction : fit.information.untold) {
-    head += "# Not told: " + printable(directionText(fit, direction), kLongestRemark) + "\n";
+    head +=
+        "# Not identifiable: " + printable(directionText(fit, direction), kLongestRemark) + "\n";
   }
   moveTables(scene, std::filesystem::path(study.scene_path).parent_path(), folder);
   YAML::Emitter out;

@@ -65,7 +65,7 @@ class Course {
 
 std::string plusMinus(double value, double deviation) {
   return std::isfinite(deviation) ? fmt::format("{:.6g} +- {:.2g}", value, deviation)
-                                  : fmt::format("{:.6g}, not known", value);
+                                  : fmt::format("{:.6g}, not identifiable", value);
 }
 
 /// Of all deviations, the largest.
@@ -83,7 +83,7 @@ double deviationFactor(const FollowedSystem& system) {
 std::string followedSystemText(const FollowedSystem& system) {
   std::string out = fmt::format("{}\n", system.name);
   if (!system.found) {
-    return out + "  its motion was not found: no sample of it, or no shaft angle\n";
+    return out + "  its motion was not estimated: no sample of it, or no shaft angle\n";
   }
   for (std::size_t i = 0; i < system.last.parameter.size(); ++i) {
     out += fmt::format("  {:<24} {} {}   (scene: {:.6g})\n", system.last.parameter[i],
@@ -92,7 +92,7 @@ std::string followedSystemText(const FollowedSystem& system) {
   }
   for (const FoundUnbalance& u : system.unbalances) {
     out +=
-        fmt::format("  unbalance {:<14} {} kg m at {:.2f} deg of the shaft, beside the scene's\n",
+        fmt::format("  unbalance {:<14} {} kg m at {:.2f} deg of the shaft, added to the scene's\n",
                     u.station, plusMinus(u.amount, u.deviation), u.angle * 57.29577951308232);
   }
   const double factor = deviationFactor(system);
@@ -117,17 +117,18 @@ std::string followedSystemText(const FollowedSystem& system) {
                              system.last.channel[c], system.rms[c], system.last.channel_unit[c],
                              system.last.residual_deviation[c]);
     if (!std::isnan(system.last.offset[c])) {
-      out += fmt::format("; zero at {:.4g} {}", system.last.offset[c], system.last.channel_unit[c]);
+      out += fmt::format("; zero offset {:.4g} {}", system.last.offset[c],
+                         system.last.channel_unit[c]);
     }
     out += "\n";
   }
   const state::FollowState& last = system.last;
-  out += fmt::format("  samples: {} used, {} refused, {} invalid, {} late, {} lost, {} repeated\n",
+  out += fmt::format("  samples: {} used, {} rejected, {} invalid, {} late, {} lost, {} repeated\n",
                      last.used, last.refused, last.invalid, last.late, last.lost, last.repeated);
-  out += fmt::format("  windows of residuals that are not those of the model: {} of {}\n",
+  out += fmt::format("  windows with residuals inconsistent with the model: {} of {}\n",
                      system.mismatched, system.windows);
   if (!system.drift_parameter.empty()) {
-    out += fmt::format("  drift: {} from {:.6g} to {:.6g}, since {:.1f} s, told at {:.1f} s\n",
+    out += fmt::format("  drift: {} from {:.6g} to {:.6g}, since {:.1f} s, detected at {:.1f} s\n",
                        system.drift_parameter, system.drift_from, system.drift_to,
                        system.drift_since, system.drift_told);
   }
@@ -192,19 +193,19 @@ FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const st
 }
 
 std::string text(const FollowedLog& run) {
-  std::string out = fmt::format("{} followed for {:.1f} s by {}: {} messages", run.log,
+  std::string out = fmt::format("{} estimated for {:.1f} s by {}: {} messages", run.log,
                                 run.duration, run.scene, run.file.messages);
   out += run.file.rejected + run.file.damaged > 0
-             ? fmt::format(", {} refused, {} damaged\n", run.file.rejected, run.file.damaged)
+             ? fmt::format(", {} rejected, {} corrupt\n", run.file.rejected, run.file.damaged)
              : "\n";
   if (!run.file.first_damage.empty()) {
-    out += "  first damage: " + run.file.first_damage + "\n";
+    out += "  first corruption: " + run.file.first_damage + "\n";
   }
   for (const std::string& remark : run.file.remarks) {
     out += "  " + remark + "\n";
   }
   if (run.restarts > 0) {
-    out += fmt::format("The motion was found anew {} times.\n", run.restarts);
+    out += fmt::format("The estimator was re-initialized {} times.\n", run.restarts);
   }
   for (const FollowedSystem& system : run.systems) {
     out += followedSystemText(system);

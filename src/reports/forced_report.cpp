@@ -93,8 +93,8 @@ ForcedReport forcedReport(const RotorSystem& system, const ForcedRequest& reques
           : kBeyondLastMode * modes[std::min(modes.size(), kModesOfInterest) - 1].dampedFrequency();
   const double to = within("--to", request.to.value_or(std::min(usual, kHighestFrequency)));
   if (!(from < to)) {
-    throw Refusal(fmt::format("--from, --to: expected --from below --to, found {:g} and {:g} rad/s",
-                              from, to));
+    throw Refusal(
+        fmt::format("--from, --to: --from must be < --to, found {:g} and {:g} rad/s", from, to));
   }
   const WholeRotor whole = wholeRotor(system, force);
   const Station& place = whole.stations[force];
@@ -154,10 +154,10 @@ CsvTables tables(const ForcedReport& r) {
 
 std::string text(const ForcedReport& r) {
   std::string out = fmt::format(
-      "{}: response to a force along {} at {} that does not turn, shaft at {:g} rad/s\n",
+      "{}: response to a force along {} at {} in a fixed direction, shaft at {:g} rad/s\n",
       r.system->title(), r.request.along, r.request.force, r.speed);
   if (r.grows) {
-    out += "  a mode grows at this speed: this response is never reached\n";
+    out += "  a mode is unstable at this speed: this response is never reached\n";
   }
   for (const std::size_t i : r.stations) {
     out += fmt::format(

@@ -71,8 +71,8 @@ void requireNumbers(const LevelOneReport& r) {
     if (!(stage.power > 0.0 && stage.diameter > 0.0 && stage.width > 0.0 &&
           stage.density_ratio > 0.0 && std::isfinite(alfordCrossCoupling(stage, r.speed)))) {
       throw Refusal(
-          "--stage: expected a power (W), a diameter (m), a width (m) and, of a centrifugal stage, "
-          "a ratio of densities, each above 0");
+          "--stage: must be a power (W), a diameter (m), a width (m) and, for a centrifugal stage, "
+          "a density ratio, each > 0");
     }
   }
 }
@@ -205,21 +205,22 @@ std::string text(const LevelOneReport& r) {
   }
   if (!r.whirlsUncoupled()) {
     out +=
-        "  without cross-coupling all that moves forward has a damping ratio above 0.7, and is no "
-        "whirl:\n  the table begins where there is one\n";
+        "  without cross-coupling all forward modes have a damping ratio above 0.7, which is no "
+        "whirl:\n  the table begins at the first whirl\n";
   }
-  out += r.margin ? fmt::format("  Q_0, where it stops to decay: {:.5g} N/m\n", *r.margin)
-                  : std::string("  Q_0, where it stops to decay: none found\n");
+  out += r.margin ? fmt::format("  Q_0, where it ceases to decay: {:.5g} N/m\n", *r.margin)
+                  : std::string("  Q_0, where it ceases to decay: none found\n");
   if (!r.applied) {
-    return out + "  Q_A, what the stages have: not known (--stage POWER DIAMETER WIDTH RATIO)\n" +
+    return out + "  Q_A, expected of the stages: not known (--stage POWER DIAMETER WIDTH RATIO)\n" +
            beyond;
   }
   for (std::size_t i = 0; i < r.expected.size(); ++i) {
     const Stage& stage = r.request.stages[i];
-    out += fmt::format(
-        "    stage {:<3} {} {:.5g} W, {:.4g} m, {:.4g} m{}: {:.5g} N/m\n", i + 1,
-        stage.axial ? "axial" : "centrifugal", stage.power, stage.diameter, stage.width,
-        stage.axial ? "" : fmt::format(", densities {:.4g}", stage.density_ratio), r.expected[i]);
+    out +=
+        fmt::format("    stage {:<3} {} {:.5g} W, {:.4g} m, {:.4g} m{}: {:.5g} N/m\n", i + 1,
+                    stage.axial ? "axial" : "centrifugal", stage.power, stage.diameter, stage.width,
+                    stage.axial ? "" : fmt::format(", density ratio {:.4g}", stage.density_ratio),
+                    r.expected[i]);
   }
   out += fmt::format("  Q_A, all stages by Alford's formula as modified by API 617: {:.5g} N/m\n",
                      *r.applied);
@@ -232,17 +233,17 @@ std::string text(const LevelOneReport& r) {
     out += fmt::format("    Q_0 / Q_A             {:.4g}\n", *r.margin / *r.applied);
   }
   out += fmt::format(
-      "  API 617 asks for level II where Q_0/Q_A < {:g} or the log. decrement at Q_A < {:g}\n",
+      "  API 617 requires level II where Q_0/Q_A < {:g} or the log. decrement at Q_A < {:g}\n",
       kLeastRatio, kLeastDecrement);
   const std::vector<std::string> reasons = r.reasons();
-  out += reasons.empty() ? std::string("    neither is so\n")
-                         : fmt::format("    so it is here: {}\n", fmt::join(reasons, "; "));
+  out += reasons.empty() ? std::string("    neither applies\n")
+                         : fmt::format("    it applies: {}\n", fmt::join(reasons, "; "));
   if (reasons.empty() && r.margin && *r.margin < kSureRatio * *r.applied) {
     out += fmt::format(
         "  and also, below Q_0/Q_A = {:g}, in region B of its chart over the gas density and the "
         "ratio "
         "of "
-        "the\n  speed to the first critical speed on rigid bearings{}: not judged here\n",
+        "the\n  speed to the first critical speed on rigid bearings{}: not evaluated here\n",
         kSureRatio,
         r.critical_speed_ratio ? fmt::format(", which is {:.3g}", *r.critical_speed_ratio) : "");
   }

@@ -86,7 +86,7 @@ Curves curvesOf(const LoopResponse& response, const std::string& name) {
 
 /// |1 + L| = 1 / 3: what zone A keeps clear.
 Series circleOfZoneA() {
-  Series circle{"zone A stays outside", {}, {}, Pen{ink::kGreen, 1.5, {5.0, 3.0}}};
+  Series circle{"limit of zone A (curve outside)", {}, {}, Pen{ink::kGreen, 1.5, {5.0, 3.0}}};
   for (int i = 0; i <= 120; ++i) {
     const Complex at = -1.0 + std::polar(1.0 / 3.0, kTwoPi * i / 120.0);
     circle.x.push_back(at.real());
@@ -114,7 +114,7 @@ void addZones(double low, double high, Chart& chart) {
 
 Figure figure(const LoopedController& controller) {
   Chart gain, phase, nyquist, sensitivity;
-  gain.title = "open loop, all others closed";
+  gain.title = "open loop, all other loops closed";
   for (Chart* chart : {&gain, &phase, &sensitivity}) {
     chart->x = {"frequency (rad/s)", true, true};
   }

@@ -41,7 +41,7 @@ std::vector<LoopedController> judged(const Scene& scene, const ClosedLoop& loop,
     const auto parts = loop.parts(
         [&](std::size_t system) { return motionAtStart(scene, system, speed); }, all.shaft_speed);
     if (!parts) {
-      throw RunFailure("a law of the loop is not linear");
+      throw RunFailure("a control law of the loop is not linear");
     }
     const SampledLoop sampled = sampledLoop(parts->plant, parts->controllers);
     all.stability = sampledStability(sampled);
@@ -169,7 +169,7 @@ std::string robustnessText(const LoopMargins& margins) {
   return fmt::format("gain times {} to {}, phase {}, delay {}",
                      orAny(margins.gain_reduction, "{:.4g}"), orAny(margins.gain_margin, "{:.4g}"),
                      orAny(margins.phase_margin / kDegree, "{:.3g} degrees"),
-                     orAny(margins.delay_margin, "{:.3g} s more"));
+                     orAny(margins.delay_margin, "additional {:.3g} s"));
 }
 
 std::string placesText(const char* title, const std::vector<std::string>& names,
@@ -179,7 +179,7 @@ std::string placesText(const char* title, const std::vector<std::string>& names,
     const SampledMargins& place = margins[i];
     out += fmt::format("    at {:<12} ", names[i]);
     out += place.zone == SensitivityZone::kUnbounded
-               ? std::string("sensitivity without bound\n")
+               ? std::string("sensitivity unbounded\n")
                : fmt::format("sensitivity {:.4g} at {:.4g} rad/s, zone {}; {}\n",
                              place.sensitivity_peak, place.peak_frequency, name(place.zone),
                              robustnessText(place));
@@ -192,24 +192,23 @@ std::string loopedControllerText(const LoopedController& controller) {
   std::string out = fmt::format(
       "{}: {} at {:g} Hz, {}\n  measures {}, acts on {}\n", spec.name, spec.type, spec.rate,
       spec.delay == 0 ? "without delay"
-                      : fmt::format("{:g} s late", static_cast<double>(spec.delay) / 1e9),
+                      : fmt::format("delay {:g} s", static_cast<double>(spec.delay) / 1e9),
       fmt::join(spec.measured, ", "), fmt::join(spec.acted_on, ", "));
   if (controller.loop.size() > 1) {
     out += fmt::format("  one loop with    {}\n", fmt::join(controller.loop, ", "));
   }
   if (!controller.stability) {
-    return out + fmt::format("  cannot be judged: {}\n", controller.objection);
+    return out + fmt::format("  cannot be evaluated: {}\n", controller.objection);
   }
   const SampledStability& stability = *controller.stability;
   out += fmt::format("  closed loop      {}{}\n", verdictText(stability.verdict),
                      stability.exact ? " (Routh, exact)" : " (by eigenvalues)");
   if (holdsSomething(controller)) {
-    out += fmt::format("  holds            {}\n", heldText(controller));
+    out += fmt::format("  equilibrium      {}\n", heldText(controller));
   }
-  out += fmt::format("  spectral radius  {:.9g} in {:g} s{}\n", stability.spectral_radius,
-                     controller.period,
-                     controller.loop.size() > 1 ? ", after which all samples come again"
-                                                : ", from sample to sample");
+  out += fmt::format(
+      "  spectral radius  {:.9g} in {:g} s{}\n", stability.spectral_radius, controller.period,
+      controller.loop.size() > 1 ? ", the period after which all samples repeat" : ", one sample");
   out += fmt::format("  all at once      {}\n",
                      std::isinf(controller.at_once.sensitivity_peak)
                          ? "no margins"

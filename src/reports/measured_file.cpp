@@ -40,7 +40,7 @@ class ChannelsFound {
                          last.samples == block.samples && last.valid == block.valid &&
                          last.value != block.value;
     if (differs && contradiction_.empty()) {
-      contradiction_ = fmt::format("{} has two different messages of {:.9g} s", block.source,
+      contradiction_ = fmt::format("{} has two different messages at {:.9g} s", block.source,
                                    1.0e-9 * static_cast<double>(block.instantOf(0)));
     }
     last = block;
@@ -49,10 +49,10 @@ class ChannelsFound {
   /// Of messages that are out of order: throws Refusal where they cannot be of one run.
   void requireOneRun(const std::string& path) const {
     if (!contradiction_.empty()) {
-      throw Refusal(fmt::format(
-          "{}: its messages are not in the order of their recorded times, and {}: expected one "
-          "run, found two",
-          path, contradiction_));
+      throw Refusal(
+          fmt::format("{}: must have one run, found two: the messages are not in the order of "
+                      "their recorded times, and {}",
+                      path, contradiction_));
     }
   }
 
@@ -62,8 +62,7 @@ class ChannelsFound {
       for (const FollowedSource::Channel& channel : source.channels) {
         if (channel.input && !hasSample(source.name, channel)) {
           throw Refusal(fmt::format(
-              "{}: {}/{}, which the settings name for an input, has no valid sample in {}; there "
-              "are: {}",
+              "{}: {}/{}, an input of the settings, must have a valid sample in {}; there are: {}",
               path, source.name, channel.name, channel.unit, fmt::join(all(), ", ")));
         }
       }
@@ -124,8 +123,8 @@ MeasuredFile readMeasuredMessages(const std::string& path, const std::string& sc
       advanced);
   if (file.messages == 0) {
     throw Refusal(
-        fmt::format("{}: expected measurements of the sensors of '{}' on channels that "
-                    "begin with {} (--lcm-prefix), {}",
+        fmt::format("{}: must have measurements of the sensors of '{}' on channels that begin with "
+                    "{} (--lcm-prefix), {}",
                     path, scene, prefix, foundElsewhere(log)));
   }
   if (log.out_of_order > 0) {

@@ -71,7 +71,7 @@ std::string text(const MethodAnalysis& m, const SystemAnalysis& a) {
     out += "  Routh's conditions for decay\n";
     for (const RouthCondition& c : m.routh_conditions) {
       out += fmt::format("    {:<15} {:.6g} > {:.6g}{}\n", c.name, c.left, c.right,
-                         c.holds ? "" : "  does not hold");
+                         c.holds ? "" : "  violated");
     }
   }
   if (m.virtual_work.size() > kFewCoordinates) {
@@ -91,7 +91,7 @@ std::string text(const MethodAnalysis& m, const SystemAnalysis& a) {
     }
   }
   if (!m.conditions.empty()) {
-    out += fmt::format("  the equations hold while, at t = {:g} s\n", a.moment.time);
+    out += fmt::format("  conditions of the equations at t = {:g} s\n", a.moment.time);
     for (const Condition& c : m.conditions) {
       out += fmt::format("    {:<15} {:.6g} {} > 0; else {}\n", c.name, c.margin, c.unit, c.broken);
     }

@@ -13,12 +13,12 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kHeight = 0.9;  // of the widest orbit, the rotor behind it
+constexpr double kHeight = 0.9;  // of the largest orbit, the rotor behind it
 constexpr double kPale = 0.6;
 
 Chart shapeChart(const ModesReport& r, std::size_t place) {
   const WhirlMode& mode = r.model[place];
-  OrbitChart drawn = orbitChart(mode.orbits, r.system->stations, "of the widest orbit",
+  OrbitChart drawn = orbitChart(mode.orbits, r.system->stations, "of the largest orbit",
                                 DrawnInstant::kWidestHighest);
   Chart& chart = drawn.chart;
   if (r.system->shaft && drawn.along_shaft) {

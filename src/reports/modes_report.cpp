@@ -80,8 +80,8 @@ void addModesNotes(ModesReport& report) {
   }
   if (!report.record) {
     notes.push_back(fmt::format(
-        "the record is too short at {:.5g} rad/s: {} samples with a known angle at a speed within "
-        "1 % of it hold no modes. A decay rate s is known to sqrt(s/T) after T seconds at best",
+        "the record is too short at {:.5g} rad/s: no modes in {} samples with a known angle at a "
+        "speed within 1 % of it. A decay rate s is known to sqrt(s/T) after T seconds at best",
         report.speed, report.counts.samples));
     return;
   }
@@ -89,32 +89,31 @@ void addModesNotes(ModesReport& report) {
   for (const ComparedMode& one : report.modes) {
     const AmbientMode& mode = one.mode;
     if (mode.decay_deviation > kWellKnown * std::fabs(mode.decay_rate)) {
-      notes.push_back(fmt::format(
-          "the decay at {:.5g} rad/s is known to {:.2g} of itself only; {:.2g} times as long a "
-          "record would tell it to a tenth",
-          std::fabs(mode.frequency), mode.decay_deviation / std::fabs(mode.decay_rate),
-          std::pow(10.0 * mode.decay_deviation / mode.decay_rate, 2.0)));
+      notes.push_back(
+          fmt::format("the decay rate at {:.5g} rad/s has a relative error of {:.2g}; 10 % needs a "
+                      "record {:.2g} times as long",
+                      std::fabs(mode.frequency), mode.decay_deviation / std::fabs(mode.decay_rate),
+                      std::pow(10.0 * mode.decay_deviation / mode.decay_rate, 2.0)));
     }
     if (mode.order > 0) {
       notes.push_back(
-          fmt::format("{:.5g} rad/s stands at {} times the speed: what was taken away there is "
-                      "missing from it, "
-                      "its frequency and decay are not those of a mode",
+          fmt::format("{:.5g} rad/s is at {} times the speed: the synchronous motion removed there "
+                      "falsifies its frequency and decay rate",
                       std::fabs(mode.frequency), mode.order));
     }
   }
   if (record.modes.empty()) {
     notes.push_back(
-        "nothing that stays from one model order to the next: too little excites the rotor, or the "
-        "record is too short");
+        "no pole persists over the model orders: the excitation is too weak or the record too "
+        "short");
   }
   if (std::find(report.one_probe.begin(), report.one_probe.end(), true) != report.one_probe.end()) {
     notes.push_back(
-        "a station with one probe shows forwards and backwards alike: senses are those of the "
+        "one probe cannot separate forward from backward whirl: directions are those of the "
         "stations with two");
   }
   if (record.speed > report.system->rotor.highest_speed) {
-    notes.push_back(fmt::format("the reduced rotor of the model holds up to {:g} rad/s",
+    notes.push_back(fmt::format("the reduced-order rotor of the model is valid up to {:g} rad/s",
                                 report.system->rotor.highest_speed));
   }
 }
@@ -167,7 +166,7 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
   const double lowest = kLeastTurn / record.period();
   if (limit && !(*limit >= lowest && *limit <= highest)) {
     throw Refusal(
-        fmt::format("--to: expected a frequency from {:.4g} to {:.4g} rad/s, {:g} of half the "
+        fmt::format("--to: must be a frequency from {:.4g} to {:.4g} rad/s, {:g} of half the "
                     "sampling rate, found {:g}",
                     lowest, highest, kOfNyquist, *limit));
   }

@@ -127,10 +127,10 @@ std::string modelText(const ModesReport& report) {
     out += modelLine(report, k);
   }
   return report.model.empty()
-             ? "  no mode that swings\n"
+             ? "  no oscillating mode\n"
              : out +
-                   "  kappa: minor by major semi-axis of the widest orbit, negative against the "
-                   "rotation;\n  of every station with --json and --csv\n";
+                   "  kappa: minor / major semi-axis of the largest orbit, negative for backward "
+                   "whirl;\n  of every station with --json and --csv\n";
 }
 
 std::string measuredText(const ModesReport& report, const ComparedMode& one) {
@@ -163,7 +163,7 @@ std::string measuredText(const ModesReport& report, const ComparedMode& one) {
     out.back() = '\n';
   }
   if (one.other_sense > 0.0) {
-    out += fmt::format("    an ellipse: {:.2g} of it the other way round\n", one.other_sense);
+    out += fmt::format("    an ellipse: {:.2g} of it in the other direction\n", one.other_sense);
   }
   return out;
 }
@@ -256,7 +256,7 @@ std::string text(const ModesReport& report) {
     const AmbientRecord& record = *report.record;
     out += fmt::format(
         ": {:.4g} s at {:.5g} rad/s, frequencies up to {:.4g} rad/s\n"
-        "  {:.3g} m rms turns with the shaft and is taken away, {:.3g} m rms is left\n"
+        "  {:.3g} m rms synchronous motion removed, {:.3g} m rms remaining\n"
         "  measured           rad/s            decay 1/s             log dec.    (95 %)\n",
         record.duration, report.speed, record.limit, record.orders, record.vibration);
   } else {
@@ -266,7 +266,7 @@ std::string text(const ModesReport& report) {
     out += measuredText(report, one);
   }
   if (!report.not_seen.empty()) {
-    out += "  of the model, not seen:\n";
+    out += "  of the model, not measured:\n";
     for (const std::size_t k : report.not_seen) {
       out += modelLine(report, k);
     }

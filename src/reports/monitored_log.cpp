@@ -373,8 +373,8 @@ MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
   if (std::all_of(run.systems.begin(), run.systems.end(),
                   [](const SystemCourse& course) { return course.states == 0; })) {
     throw Refusal(
-        fmt::format("{}: expected states of the systems of '{}' on channels that begin "
-                    "with {} (--lcm-prefix), {}",
+        fmt::format("{}: must have states of the systems of '{}' on channels that begin with {} "
+                    "(--lcm-prefix), {}",
                     log, scene.scene.name, prefix, foundElsewhere(read)));
   }
   if (spectrum_at && !(*spectrum_at >= run.begin && *spectrum_at <= run.end)) {

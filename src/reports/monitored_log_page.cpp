@@ -77,9 +77,10 @@ std::string resonancesPart(const SystemCourse& system) {
   for (const PassedResonance& resonance : system.resonances) {
     const ResponsePeak& peak = resonance.peak;
     const std::string factor =
-        !peak.amplification_factor ? "– (half power is not reached on both sides)"
-        : peak.slow                ? numberOnPage(*peak.amplification_factor)
-                    : numberOnPage(*peak.amplification_factor) + " (passed too fast: too small)";
+        !peak.amplification_factor ? "– (half power not reached on both sides)"
+        : peak.slow
+            ? numberOnPage(*peak.amplification_factor)
+            : numberOnPage(*peak.amplification_factor) + " (passed too fast: underestimated)";
     out += fmt::format(
         "<tr><td class=\"n\">{:.3f}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
         "<td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
@@ -96,9 +97,10 @@ std::string onNextLine(const std::string& text) {
 /// The last turns, with a dot wherever the phase mark of the shaft passes the x axis.
 Chart orbitOfLastTurns(const SystemCourse& system) {
   Chart chart;
-  chart.title = fmt::format("orbit, last turns up to t = {:.4g} s", system.orbit.back().at.time);
-  chart.x.label = "x (m), less its mean";
-  chart.y.label = "y (m), less its mean";
+  chart.title =
+      fmt::format("orbit, last revolutions before t = {:.4g} s", system.orbit.back().at.time);
+  chart.x.label = "x (m), without its mean";
+  chart.y.label = "y (m), without its mean";
   chart.equal_aspect = true;
   Series path{"", {}, {}, Pen{ink::kBlue, 1.2}};
   Series marks{"", {}, {}, Pen{ink::kBlack, 1.2}, false, Marks::kDots};
@@ -141,8 +143,8 @@ std::string spectraPart(const SystemCourse& system, int& pictures) {
     for (const SpectrumLine& line : system.spectrum->lines) {
       lines += (lines.empty() ? "" : "; ") + lineText(line);
     }
-    said =
-        "Lines of the full spectrum: " + lines + "." + (said.empty() ? "" : " And " + said + ".");
+    said = "Components of the full spectrum: " + lines + "." +
+           (said.empty() ? "" : " Remark: " + said + ".");
   } else if (!said.empty()) {
     said = "Note: " + said + ".";
   }
@@ -151,7 +153,7 @@ std::string spectraPart(const SystemCourse& system, int& pictures) {
 
 Figure bode(const OrderCourse& orders) {
   Figure figure;
-  figure.title = "what turns once with the shaft (1X)";
+  figure.title = "synchronous component (1X)";
   figure.width = 940;
   figure.chart_height = 300;
   figure.columns = 2;
@@ -167,8 +169,8 @@ Figure bode(const OrderCourse& orders) {
     turned.y.push_back(-orders.amplitude[i] * std::sin(orders.lag[i]));
   }
   polar.title = "polar";
-  polar.x = {"ahead, at the mark (m)", false, false};
-  polar.y = {"aside, in the direction of rotation (m)", false, false};
+  polar.x = {"along the phase mark (m)", false, false};
+  polar.y = {"ahead of the phase mark (m)", false, false};
   polar.equal_aspect = true;
   polar.series = {turned};
   figure.charts = {amplitude, lag, polar};
@@ -196,19 +198,20 @@ Figure figure(const MonitoredLog& run, const SystemCourse& system) {
     figure.charts.push_back(chart);
   };
   add("speed of the shaft (rad/s)", system.time, system.speed);
-  add("vibration about the mean (m)", system.time, system.vibration);
+  add("vibration about the mean (m, 0-peak)", system.time, system.vibration);
   add("1X amplitude (m)", system.orders.time, system.orders.amplitude);
   if (!system.orders.line_time.empty()) {
-    add("largest line of no order (rad/s)", system.orders.line_time, system.orders.line_frequency);
+    add("largest non-synchronous component (rad/s)", system.orders.line_time,
+        system.orders.line_frequency);
     figure.charts.back().series.front().line = false;
     figure.charts.back().series.front().marks = Marks::kDots;
   }
-  add("decay of the slowest motion (1/s)", system.margin_time, system.decay_rate);
+  add("decay rate of the slowest mode (1/s)", system.margin_time, system.decay_rate);
   if (!figure.charts.empty() && any(system.decay_rate)) {
     Series edge{"", {run.begin, run.end}, {0.0, 0.0}};  // a curve, so that it is always seen
     edge.pen = Pen{ink::kVermilion, 1.5, {6.0, 4.0}};
     figure.charts.back().series.push_back(edge);
-    figure.charts.back().horizontal = {{0.0, "edge of stability"}};
+    figure.charts.back().horizontal = {{0.0, "stability boundary"}};
   }
   return figure;
 }
@@ -223,19 +226,18 @@ std::string notOkPart(const MonitoredLog& run) {
           escapedForHtml(course.why));
     }
   }
-  return rows.empty()
-             ? ""
-             : "<h2>What could not be judged</h2>\n<table><tr><th>from, s</th><th>to, s</th>"
-               "<th>system</th><th>why</th></tr>\n" +
-                   rows + "</table>\n";
+  return rows.empty() ? ""
+                      : "<h2>Monitoring gaps</h2>\n<table><tr><th>from, s</th><th>to, s</th>"
+                        "<th>system</th><th>why</th></tr>\n" +
+                            rows + "</table>\n";
 }
 
 std::string page(const MonitoredLog& run) {
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<title>{0}: {1}</title>\n<style>{2}</style></head><body>\n<h1>{0}</h1>\n"
-      "<p>{1}: t = {3:g} to {4:g} s of simulated time, {5} messages watched, {6} rejected, {7} "
-      "damaged places, {8} resets.</p>\n",
+      "<p>{1}: t = {3:g} to {4:g} s of simulated time, {5} messages replayed, {6} rejected, {7} "
+      "corrupt places, {8} resets.</p>\n",
       escapedForHtml(run.scene), escapedForHtml(run.log), kLogPageStyle, run.begin, run.end,
       run.watched, run.rejected, run.damaged, run.resets);
   out += "<h2>Alerts</h2>\n";
@@ -244,7 +246,7 @@ std::string page(const MonitoredLog& run) {
   } else {
     out +=
         "<table><tr><th>raised, s</th><th>cleared, s</th><th>severity</th><th>alert</th>"
-        "<th>system</th><th>what was said</th></tr>\n";
+        "<th>system</th><th>message</th></tr>\n";
     for (const AlertCourse& alert : run.alerts) {
       out += fmt::format(
           "<tr><td class=\"n\">{:.3f}{}</td><td class=\"n\">{}{}</td><td class=\"{}\">{}</td>"
@@ -259,7 +261,7 @@ std::string page(const MonitoredLog& run) {
   }
   out += notOkPart(run);
   out +=
-      "<h2>Margins</h2>\n<table><tr><th>system</th><th>least decay, 1/s</th><th>at, s</th>"
+      "<h2>Margins</h2>\n<table><tr><th>system</th><th>least decay rate, 1/s</th><th>at, s</th>"
       "<th>at speed, rad/s</th><th>verdict there</th></tr>\n";
   for (const SystemCourse& system : run.systems) {
     out += fmt::format(
@@ -267,7 +269,7 @@ std::string page(const MonitoredLog& run) {
         "<td>{}</td></tr>\n",
         escapedForHtml(system.name), numberOnPage(system.least_decay_rate),
         numberOnPage(system.least_at), numberOnPage(system.least_at_speed),
-        system.least_verdict.empty() ? "not judged" : escapedForHtml(system.least_verdict));
+        system.least_verdict.empty() ? "not evaluated" : escapedForHtml(system.least_verdict));
   }
   out += "</table>\n";
   int pictures = 0;

@@ -26,9 +26,9 @@ std::string motionText(const SystemCourse& system) {
                        system.name, peak.speed, peak.time, 1.0e6 * peak.amplitude,
                        peak.amplification_factor
                            ? fmt::format("amplification factor {:.4g}", *peak.amplification_factor)
-                           : "no amplification factor: half power is not reached on both sides");
+                           : "no amplification factor: half power not reached on both sides");
     if (peak.amplification_factor && !peak.slow) {
-      out += " (passed too fast for it to be the rotor's)";
+      out += " (passed too fast: underestimated)";
     }
     if (std::isfinite(resonance.model_speed)) {
       out += fmt::format("; model {:.6g} rad/s", resonance.model_speed);
@@ -39,7 +39,7 @@ std::string motionText(const SystemCourse& system) {
   }
   if (system.slow_roll) {
     out += fmt::format(
-        "  {}: slow roll taken off what was measured, {:.4g} um forward, {:.4g} um "
+        "  {}: slow-roll compensation of the measurement, {:.4g} um forward, {:.4g} um "
         "backward\n",
         system.name, 1.0e6 * std::abs(system.slow_roll->forward),
         1.0e6 * std::abs(system.slow_roll->backward));
@@ -61,8 +61,8 @@ std::string motionText(const SystemCourse& system) {
 std::string notOkText(const SystemCourse& system) {
   std::string out;
   for (const NotOkCourse& course : system.not_ok) {
-    out += fmt::format("  {}: not OK, t = {:.4g} to {}: {}\n", system.name, course.begin,
-                       numberWithUnit(course.end, "s"), course.why);
+    out += fmt::format("  {}: data quality not good, t = {:.4g} to {}: {}\n", system.name,
+                       course.begin, numberWithUnit(course.end, "s"), course.why);
   }
   return out;
 }
@@ -131,10 +131,11 @@ std::string text(const MonitoredLog& run) {
       fmt::format("{}: {} of '{}', t = {:g} .. {:g} s\n", run.log,
                   plural(run.watched, "message", "messages"), run.scene, run.begin, run.end);
   if (run.damaged + run.rejected > 0) {
-    out += fmt::format("  left out: {} that cannot be meant, {} of the file\n",
+    out += fmt::format("  left out: {} with invalid content, {} of the file\n",
                        plural(run.rejected, "message", "messages"),
-                       plural(run.damaged, "damaged place", "damaged places"));
-    out += run.first_damage.empty() ? "" : fmt::format("  first damage: {}\n", run.first_damage);
+                       plural(run.damaged, "corrupt place", "corrupt places"));
+    out +=
+        run.first_damage.empty() ? "" : fmt::format("  first corruption: {}\n", run.first_damage);
   }
   if (run.resets > 0) {
     out += fmt::format("  the simulation was reset {}\n", plural(run.resets, "time", "times"));
@@ -146,7 +147,7 @@ std::string text(const MonitoredLog& run) {
                        numberWithUnit(system.least_decay_rate, "1/s"),
                        numberWithUnit(system.least_at, "s"),
                        numberWithUnit(system.least_at_speed, "rad/s"),
-                       system.least_verdict.empty() ? "not judged" : system.least_verdict);
+                       system.least_verdict.empty() ? "not evaluated" : system.least_verdict);
   }
   std::string motion;
   for (const SystemCourse& system : run.systems) {

@@ -95,12 +95,12 @@ void addParameters(Lines& lines, const ModelInfo& model, const YAML::Node& given
 
 void addDrive(Lines& lines, const YAML::Node& drive) {
   lines.plain("drives:");
-  lines.add(2, "shaft:", "what turns the systems that name it; any name");
+  lines.add(2, "shaft:", "a drive, for the systems that name it; any name");
   const YAML::Node speed = drive["speed"];
   lines.add(4, "speed: " + (speed ? flow(speed) : std::string("0.0")), "rad/s, at the start");
   lines.off(4, "angle: 0.0", "rad, at the start");
-  lines.add(4, "profile:", "moves, one after the other; without any the speed stays");
-  lines.add(4, "  # rad/s; rad/s^2; rad/s^3 (none: no limit); s, to stay there", "");
+  lines.add(4, "profile:", "moves, one after the other; without any the speed is constant");
+  lines.add(4, "  # rad/s; rad/s^2; rad/s^3 (none: no limit); s, time at this speed", "");
   if (drive["profile"]) {
     for (const YAML::Node& move : drive["profile"]) {
       lines.add(6, "- " + flow(move), "");
@@ -158,8 +158,7 @@ void addInputs(Lines& lines, const ModelInfo& model) {
   if (inputs.empty()) {
     return;
   }
-  lines.off(4,
-            "inputs:", "what acts on it from outside: a number, or {amplitude, frequency, phase},");
+  lines.off(4, "inputs:", "external inputs: a number, or {amplitude, frequency, phase},");
   lines.off(4, "", "or {table: FILE.csv, time: COLUMN, value: COLUMN, hold: true}");
   for (const InputInfo& input : inputs) {
     lines.off(4, fmt::format("  {}: 0.0", input.name),
@@ -180,12 +179,10 @@ std::string newScene(const ModelInfo& model, const YAML::Node& example, const st
   lines.plain(fmt::format("# {}: {}", model.name, model.summary));
   lines.plain("#");
   lines.plain(
-      "# Everything is in SI units: m, kg, s, rad, N. What stands behind a # is what holds unless "
-      "it");
-  lines.plain(
-      "# is said: take the # away to say it. `twin check FILE` tells all that is wrong with the "
-      "file,");
-  lines.plain("# or what will be modelled.");
+      "# All values are in SI units: m, kg, s, rad, N. Keys in comments show their defaults: "
+      "remove the");
+  lines.plain("# comment sign to set them. `twin check FILE` prints all errors of the file,");
+  lines.plain("# or what is modelled.");
   lines.plain(fmt::format("name: my_{}", model.name));
   lines.add(0, "step: " + (example["step"] ? flow(example["step"]) : std::string("0.001")),
             "s, of the simulation");
@@ -200,7 +197,7 @@ std::string newScene(const ModelInfo& model, const YAML::Node& example, const st
   }
   lines.plain("systems:");
   lines.add(2, (system.empty() ? model.name : system) + ":",
-            "topics and channels have its name; as many systems as you like");
+            "its name is in topics and channels; any number of systems");
   lines.add(4, "model: " + model.name, "");
   if (drive) {
     lines.add(4, "drive: shaft", "or parameters: {speed: ...} [rad/s] for a constant speed");
@@ -212,9 +209,9 @@ std::string newScene(const ModelInfo& model, const YAML::Node& example, const st
   addInitial(lines, model, of["initial"] ? of["initial"] : YAML::Node());
   lines.off(4, "integrator: auto",
             fmt::format("{}", fmt::join(integratorsOf(model.variants.front()), " | ")));
-  lines.off(4, "tolerance: 1.0e-6", "-: what `auto` keeps the error below");
-  lines.off(4, "horizon: 10.0", "s: for how long");
-  lines.off(4, "substeps: 1", "parts of a step, of a method that is named");
+  lines.off(4, "tolerance: 1.0e-6", "-: error bound of `auto`");
+  lines.off(4, "horizon: 10.0", "s: time over which the bound holds");
+  lines.off(4, "substeps: 1", "sub-steps per step, for a named method");
   addInputs(lines, model);
   return lines.text();
 }

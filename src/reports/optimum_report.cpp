@@ -41,13 +41,13 @@ std::string text(const Study& study, const Optimum& optimum) {
   std::string text = fmt::format(
       "{}: {} of {} over {} by {}: {} evaluations, {}{}\n", study.source,
       asked.maximize ? "maximum" : "minimum", study.measures[asked.measure].name,
-      asked.over.size() == 1 ? "one number" : fmt::format("{} numbers", asked.over.size()),
+      asked.over.size() == 1 ? "one parameter" : fmt::format("{} parameters", asked.over.size()),
       asked.method, optimum.evaluations,
       optimum.failures > 0 ? fmt::format("{} of which failed, ", optimum.failures) : "",
       optimum.ended);
   const bool found = !optimum.values.empty();
   if (!found) {
-    text += "no point was found that meets what is required\n";
+    text += "no point satisfies the requirements\n";
   }
   std::size_t width = 7;
   for (const std::size_t j : asked.over) {
@@ -65,7 +65,7 @@ std::string text(const Study& study, const Optimum& optimum) {
     if (found) {
       const std::string end = endOf(v, optimum.values[j]);
       text += fmt::format(" {:12.6g}{}", optimum.values[j],
-                          end.empty() ? "" : "  the " + end + " that was allowed");
+                          end.empty() ? "" : "  at the " + end + " of its range");
     }
     text += "\n";
   }
@@ -78,7 +78,7 @@ std::string text(const Study& study, const Optimum& optimum) {
     text += optimumCell(start[k]) + (found ? optimumCell(optimum.measures[k]) : "") + "\n";
   }
   if (found && !study.requirements.empty()) {
-    text += "\nrequired and held:";
+    text += "\nrequirements met:";
     for (const Requirement& requirement : study.requirements) {
       text += fmt::format("  {}", whirl_twin::text(requirement, study));
     }

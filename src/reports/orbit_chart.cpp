@@ -61,10 +61,10 @@ Chart orbitsAlongShaft(const std::vector<Orbit>& orbits, const std::vector<Stati
   const double length = position(order.back()) - position(order.front());
   const double slant = largest > 0.0 ? kAslant * length / largest : 0.0;
   Chart chart;
-  chart.x = {"along the shaft (m); x of the orbits is drawn aslant", false, true};
+  chart.x = {"along the shaft (m); x of the orbits is drawn oblique", false, true};
   chart.y.label = "y";
   bool named[2] = {false, false};
-  Series shaft{instant == DrawnInstant::kPhaseMark ? "the shaft as its phase mark passes x"
+  Series shaft{instant == DrawnInstant::kPhaseMark ? "the shaft when its phase mark passes x"
                                                    : "the shaft at one instant",
                {},
                {},

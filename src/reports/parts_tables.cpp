@@ -85,8 +85,8 @@ std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
                   "density, kg/m³", "axial force, N", "torque, N m"},
                  elementRows(shaft)});
   PartsTable couplings{
-      "Couplings, in place of their elements",
-      {"nodes", "across, N/m", "in bending, N m/rad", "across, N s/m", "in bending, N m s/rad"},
+      "Couplings, replacing their elements",
+      {"nodes", "lateral, N/m", "bending, N m/rad", "lateral, N s/m", "bending, N m s/rad"},
       {}};
   for (std::size_t i = 0; i < shaft.elements.size(); ++i) {
     if (const std::optional<ShaftCoupling>& c = shaft.elements[i].coupling) {
@@ -97,7 +97,7 @@ std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
   }
   PartsTable sleeves{
       "Sleeves",
-      {"nodes", "outer diameter, m", "inner diameter, m", "density, kg/m³", "share of stiffness"},
+      {"nodes", "outer diameter, m", "inner diameter, m", "density, kg/m³", "stiffness fraction"},
       {}};
   for (std::size_t first = 0; first < shaft.sleeves.size();) {
     std::size_t end = first + 1;
@@ -144,7 +144,7 @@ std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
     unbalances.rows.push_back({std::to_string(unbalance.node), partNumber(unbalance.magnitude),
                                partNumber(unbalance.angle)});
   }
-  PartsTable ratios{"Damping by mode, not turning", {"frequency, rad/s", "damping ratio"}, {}};
+  PartsTable ratios{"Modal damping, external", {"frequency, rad/s", "damping ratio"}, {}};
   for (const DampingRatio& at : shaft.modal_damping) {
     ratios.rows.push_back({partNumber(at.frequency), partNumber(at.ratio)});
   }

@@ -82,7 +82,7 @@ MeasuredRun readMeasuredLog(const std::string& path, const std::string& prefix,
       [](std::uint64_t, std::uint64_t) {});
   if (sources.size() != 1) {
     throw Refusal(fmt::format(
-        "expected {} of one source, on channels that begin with {} (--lcm-prefix); {}",
+        "must have {} of one source, on channels that begin with {} (--lcm-prefix); {}",
         fmt::join(columns, ", "), prefix,
         seen.empty() ? foundElsewhere(log) : fmt::format("found {}", fmt::join(seen, ", "))));
   }
@@ -105,15 +105,15 @@ MeasuredRun readMeasuredLog(const std::string& path, const std::string& prefix,
     run.remarks.push_back(outOfOrder(log));
   }
   if (rows.not_valid > 0) {
-    run.remarks.push_back(fmt::format("{} {} that the sensor says are not valid, left out",
+    run.remarks.push_back(fmt::format("{} {} marked invalid by the sensor, left out",
                                       rows.not_valid, rows.not_valid == 1 ? "row" : "rows"));
   }
   if (log.damaged + log.rejected > 0) {
     run.remarks.push_back(
         fmt::format("{} {} of the file and {} {} left out{}", log.damaged,
-                    log.damaged == 1 ? "damaged place" : "damaged places", log.rejected,
+                    log.damaged == 1 ? "corrupt place" : "corrupt places", log.rejected,
                     log.rejected == 1 ? "message" : "messages",
-                    log.first_damage.empty() ? "" : "; the first damage: " + log.first_damage));
+                    log.first_damage.empty() ? "" : "; the first: " + log.first_damage));
   }
   return run;
 }

@@ -19,8 +19,8 @@ constexpr double kLeastJitter = 1.0e-9;  // s
 
 std::string WildSamples::note(const std::string& probe, std::int64_t start) const {
   return fmt::format(
-      "{}: {} wild {} left out, the first {:.4g} s after the first sample, up to {:.3g} m", probe,
-      instants.size(), instants.size() == 1 ? "sample" : "samples",
+      "{}: {} implausible {} left out, the first {:.4g} s after the first sample, up to {:.3g} m",
+      probe, instants.size(), instants.size() == 1 ? "sample" : "samples",
       kNanosecond * static_cast<double>(instants.front() - start), largest);
 }
 

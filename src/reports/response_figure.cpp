@@ -186,7 +186,7 @@ Figure figure(const ResponseReport& r) {
   lag.y.degrees = true;
   polar.x.label = "along the shaft's phase mark (m)";
   polar.y.label = "ahead of the phase mark (m)";
-  polar.title = "forward whirl seen from the shaft";
+  polar.title = "forward whirl in the shaft's frame";
   polar.equal_aspect = true;
   const std::vector<std::size_t> shown = shownStations(r);
   for (const std::size_t i : shown) {

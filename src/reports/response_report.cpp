@@ -17,9 +17,9 @@ namespace {
 
 void requireForce(const RotorSystem& system) {
   if (!hasSynchronousForce(system.rotor)) {
-    throw Refusal(fmt::format(
-        "{}: expected an unbalance or a bow, found a balanced rotor: it does not respond",
-        system.title()));
+    throw Refusal(
+        fmt::format("{}: must have an unbalance or a bow, found a balanced rotor without response",
+                    system.title()));
   }
 }
 
@@ -139,7 +139,7 @@ std::string text(const ResponseReport& r) {
   const DataSpeeds data = r.system->tables();
   std::string out = fmt::format("{}: response to its unbalance\n", r.system->title());
   if (stride > 1) {
-    out += fmt::format("  one of {} of {} speeds; all of them with --json or --csv\n", stride,
+    out += fmt::format("  1 in {} of {} speeds; all of them with --json or --csv\n", stride,
                        r.sweep.size());
   }
   for (const std::size_t i : r.stations) {

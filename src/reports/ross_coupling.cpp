@@ -18,7 +18,7 @@ RossCoupling rossCoupling(RossFile& file, const RossEntry& entry, int node) {
     coupling.row.emplace_back(ours, drawn(along_x));
     if (file.number(entry, fmt::format("{}_y", kind).c_str(), unit, 0.0) != along_x) {
       coupling.left_out.push_back(
-          fmt::format("{0}: {1}_y other than {1}_x, which is taken", entry.key, kind));
+          fmt::format("{0}: {1}_y differs from {1}_x, which is used", entry.key, kind));
     }
     if (file.number(entry, fmt::format("{}_z", kind).c_str(), unit, 0.0) != 0.0) {
       coupling.left_out.push_back(

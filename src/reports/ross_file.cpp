@@ -49,20 +49,21 @@ nlohmann::json jsonOf(const toml::value& value) {
 nlohmann::json treeOf(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in || !std::filesystem::is_regular_file(path)) {
-    throw Refusal(path + ": cannot be read; must be a rotor that ROSS has saved");
+    throw Refusal(path + ": cannot be read; must be a rotor saved by ROSS");
   }
   try {
     nlohmann::json tree = std::filesystem::path(path).extension() == ".json"
                               ? nlohmann::json::parse(in)
                               : jsonOf(toml::parse(in, path));
     if (!tree.is_object()) {
-      throw Refusal(path + ": must be a rotor that ROSS has saved, found a list or a value");
+      throw Refusal(path + ": must be a rotor saved by ROSS, found a list or a value");
     }
     return tree;
   } catch (const nlohmann::json::exception& error) {
-    throw Refusal(fmt::format("{}: is no JSON: {}", path, error.what()));
+    throw Refusal(fmt::format("{}: must be JSON: {}", path, error.what()));
   } catch (const toml::exception& error) {
-    throw Refusal(fmt::format("{}: is no TOML, in line {}", path, error.location().line()));
+    throw Refusal(
+        fmt::format("{}: must be TOML, found an error in line {}", path, error.location().line()));
   }
 }
 
@@ -210,7 +211,7 @@ std::vector<double> RossFile::numbers(const RossEntry& entry, const char* name) 
   own.places.resize(found->is_array() ? found->size() : 1);
   std::vector<double> values = coefficient(entry, name, own);
   if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) != values.end()) {
-    complaints_.add(fmt::format("{}.{}", entry.key, name), "must rise");
+    complaints_.add(fmt::format("{}.{}", entry.key, name), "must increase");
   }
   return values;
 }

@@ -98,7 +98,7 @@ class RossReader {
       all.push_back(layer);
       for (const char* effect : {"rotary_inertia", "gyroscopic"}) {
         if (!file_.flag(entry, effect)) {
-          leaveOut(fmt::format("{}: {}: false; elements have it here", entry.key, effect));
+          leaveOut(fmt::format("{}: {}: false; always included here", entry.key, effect));
         }
       }
     }
@@ -114,7 +114,7 @@ class RossReader {
     const auto real =
         std::find_if(all.begin(), all.end(), [](const Layer& layer) { return !layer.coupling; });
     if (real == all.end()) {
-      complaints_.add("", "has no ShaftElement");
+      complaints_.add("", "must have a ShaftElement, found none");
       return;
     }
     const RossMaterial& shaft = real->material;
@@ -131,11 +131,11 @@ class RossReader {
         continue;
       }
       if (file_.flag(layer.entry, "shear_effects") != drawing_.shear_deformation) {
-        leaveOut(layer.entry.key + ": shear_effects other than the first element's");
+        leaveOut(layer.entry.key + ": shear_effects differs from the first element's");
       }
       if (file_.number(layer.entry, "alpha", "1/s", 0.0) != drawing_.mass_damping ||
           file_.number(layer.entry, "beta", "s", 0.0) != drawing_.stiffness_damping) {
-        leaveOut(layer.entry.key + ": alpha or beta other than the first element's");
+        leaveOut(layer.entry.key + ": alpha or beta differs from the first element's");
       }
       const bool within = layer.node < last_node_;
       if (within) {
@@ -149,7 +149,7 @@ class RossReader {
   void takeNodes(const Layer& layer) {
     if (layer.node != last_node_) {
       complaints_.add(layer.entry.key + ".n",
-                      fmt::format("there is no shaft element from node {}", last_node_));
+                      fmt::format("must have a shaft element at node {}, found none", last_node_));
     }
     last_node_ = layer.node + 1;
   }
@@ -196,7 +196,7 @@ class RossReader {
   void addSleeve(const Layer& layer) {
     const bool mass_only = layer.material.youngs_modulus < kNoStiffness * drawing_.youngs_modulus;
     if (layer.outer_end != layer.outer || layer.inner_end != layer.inner) {
-      leaveOut(layer.entry.key + ": the taper of a layer; it has the diameters of its left end");
+      leaveOut(layer.entry.key + ": the taper of a layer; the diameters of its left end are used");
     }
     DrawnRow row;
     if (const std::string name = nameOfMaterial(layer, mass_only); !name.empty()) {
@@ -245,8 +245,9 @@ class RossReader {
     for (const RossEntry& entry : file_.entries()) {
       if (entry.isDisc()) {
         if (!entry.is("DiskElement")) {
-          leaveOut(fmt::format("{}: what a {} is beside a disc: its mass and inertias are taken",
-                               entry.key, entry.kind));
+          leaveOut(fmt::format(
+              "{}: properties of a {} other than mass and inertias, which are used as a disc",
+              entry.key, entry.kind));
         }
         drawing_.discs.push_back(
             {{"node", std::to_string(file_.node(entry))},
@@ -258,7 +259,7 @@ class RossReader {
         drawing_.discs.push_back(
             {{"node", std::to_string(file_.node(entry))}, {"mass", drawn(along_x)}});
         if (along_x != along_y) {
-          leaveOut(entry.key + ": my other than mx, which is taken");
+          leaveOut(entry.key + ": my differs from mx, which is used");
         }
       }
     }
@@ -291,10 +292,10 @@ class RossReader {
   void addTable(const RossEntry& entry, const RossAxes& axes, const DrawnRow::value_type& of,
                 DrawnRow& row, std::vector<DrawnRow>& table) {
     if (axes.of_whirl || !axes.frequencies.empty()) {
-      leaveOut(fmt::format(
-          "{}: coefficients over the frequency of the whirl; those where it is the speed "
-          "(1X) are taken, others whirl with other coefficients",
-          entry.key));
+      leaveOut(
+          fmt::format("{}: coefficients over the whirl frequency; those at the speed (1X) are used "
+                      "for all whirl frequencies",
+                      entry.key));
     }
     if (axes.places.size() < 2) {
       addCoefficients(entry, 0, axes, row);
@@ -315,7 +316,7 @@ class RossReader {
     for (const char* name : {"mxx", "myy", "mxy"}) {
       const std::vector<double> values = file_.coefficient(entry, name, axes);
       if (std::any_of(values.begin(), values.end(), [&](double m) { return m != values[0]; })) {
-        leaveOut(fmt::format("{}: {} over speed; its mean is taken", entry.key, name));
+        leaveOut(fmt::format("{}: {} over speed; its mean is used", entry.key, name));
       }
       double mean = 0.0;
       for (const double value : values) {
@@ -327,7 +328,7 @@ class RossReader {
       }
     }
     if (file_.coefficient(entry, "myx", axes) != across) {
-      leaveOut(entry.key + ": myx other than mxy, which is taken");
+      leaveOut(entry.key + ": myx differs from mxy, which is used");
     }
     for (const char* name : {"kzz", "czz", "mzz"}) {
       const std::vector<double> values = file_.coefficient(entry, name, axes);
@@ -359,7 +360,7 @@ class RossReader {
           std::find_if(file_.entries().begin(), file_.entries().end(),
                        [&](const RossEntry& entry) { return entry.isSupport() && at(entry); });
       if (mass == file_.entries().end() || below == file_.entries().end()) {
-        leaveOut(fmt::format("{}: its n_link {} has no {}: it stands on the ground", above->key,
+        leaveOut(fmt::format("{}: its n_link {} has no {}: it is connected to ground", above->key,
                              place, mass == file_.entries().end() ? "PointMass" : "bearing below"));
         return;
       }

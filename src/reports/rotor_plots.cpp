@@ -173,7 +173,7 @@ std::vector<std::size_t> startsOfTurns(const PlotHistory& history,
   return starts;
 }
 
-/// The whirl about its middle, as the sag of a shaft or the load of its bearings moves that aside:
+/// The whirl about its mean, as the sag of a shaft or the load of its bearings moves that aside:
 /// there radius and lag of the position would be bands. Of each sample the mean over eight turns.
 struct CentredWhirl {
   PlotHistory about;          // as the history, radius and lag from the middle
@@ -231,10 +231,10 @@ std::vector<Chart> rotorCharts(const PlotHistory& history) {
   const CentredWhirl whirl = centred(history);
   std::vector<Chart> charts{historyChart(history, "whirl radius", "m", whirl.about.whirl_radius)};
   if (!whirl.aside.empty()) {
-    charts.front().y.label = "whirl radius about its middle (m)";
-    charts.front().series.front().name = "whirl about its middle";
-    charts.front().series.push_back(
-        {"middle of the orbit, from the axis", history.time, whirl.aside, Pen{ink::kGrey, 1.6}});
+    charts.front().y.label = "whirl radius about its mean (m)";
+    charts.front().series.front().name = "whirl about its mean";
+    charts.front().series.push_back({"distance of the orbit's mean from the axis", history.time,
+                                     whirl.aside, Pen{ink::kGrey, 1.6}});
   }
   const std::vector<double> lag = phaseLagHistory(whirl.about);
   if (anyFinite(lag)) {

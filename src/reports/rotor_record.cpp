@@ -65,7 +65,7 @@ std::vector<RecordedProbe> probesOf(const SensorSpec& sensor, std::size_t system
 std::string RecordCounts::pulseNote() const {
   std::string note;
   if (!stated) {
-    note = fmt::format("the keyphasor's pulses scatter by {:.2g} s, more than the scene states",
+    note = fmt::format("the keyphasor's pulses scatter by {:.2g} s, more than the scene specifies",
                        jitter);
   }
   if (false_pulses > 0) {
@@ -84,13 +84,13 @@ RotorRecord::RotorRecord(const BuiltScene& scene, const RotorSystem& system, con
   }
   if (probes_.empty()) {
     throw Refusal(fmt::format(
-        "{}: expected displacement probes at '{}' and a keyphasor on its shaft, as `sensors` of "
+        "{}: must have displacement probes at '{}' and a keyphasor on its shaft, as `sensors` of "
         "the "
         "scene names them, or its whirl, on channels that begin with {} (--lcm-prefix); {}",
         log_, system.name, prefix_, foundElsewhere(eachMessage([](const Message&) {}))));
   }
   if (!(steady_speed_ > 0.0)) {
-    throw Refusal(fmt::format("{}: expected a shaft that turns forwards", log_));
+    throw Refusal(fmt::format("{}: the shaft must rotate forward", log_));
   }
 }
 
@@ -162,8 +162,9 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
     if (found->second.samples < 2) {
       notes_.push_back(fmt::format("the log has no samples of {}", sensor.name));
     } else if (which == ProbesRead::kAtSameInstants && !found->second.isAtInstantsOf(*best)) {
-      notes_.push_back(fmt::format("{} is not used: its samples are not of the instants of {}",
-                                   sensor.name, best->spec->name));
+      notes_.push_back(
+          fmt::format("{} is not used: its samples are not simultaneous with those of {}",
+                      sensor.name, best->spec->name));
     } else {
       used.push_back(&found->second);
     }

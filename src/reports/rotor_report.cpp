@@ -55,8 +55,7 @@ class RotorReport {
     } else {
       missing_.push_back(
           "Drawing, masses, sag, bearing loads, shear force, bending moment, critical speed map: "
-          "of "
-          "a flexible_rotor, whose scene has its shaft and bearings");
+          "only of a flexible_rotor, whose scene has its shaft and bearings");
     }
     attempt("Whirl modes", [this] { modes(); });
     attempt("Campbell diagram", [this] { campbell(); });
@@ -98,7 +97,7 @@ class RotorReport {
         system_.model, runs, speed_, rpm(speed_)));
     const std::string& note = built().setup().note;
     if (!note.empty()) {
-      page_.text("As it is stepped: " + note + ".");
+      page_.text("Model of the simulation: " + note + ".");
     }
     const DataSpeeds data = system_.tables();
     if (!data.covers(speed_)) {
@@ -128,11 +127,11 @@ class RotorReport {
         {{numberOrDash(sheet->body.mass), numberOrDash(sheet->body.centre),
           numberOrDash(sheet->body.polar_inertia), numberOrDash(sheet->body.transverse_inertia)}});
     if (!sheet->statics) {
-      missing_.push_back("Sag and bearing loads: some motion of the rotor is free");
+      missing_.push_back("Sag and bearing loads: the rotor has a rigid-body mode");
       return;
     }
     page_.section("At rest under its weight");
-    page_.text(fmt::format("Weight {} N, g = {} m/s², the bearings as they are at {:.5g} rad/s.",
+    page_.text(fmt::format("Weight {} N, g = {} m/s², the bearing coefficients at {:.5g} rad/s.",
                            numberOrDash(sheet->body.mass * sheet->gravity),
                            numberOrDash(sheet->gravity), speed_));
     std::vector<std::vector<std::string>> loads;
@@ -149,7 +148,7 @@ class RotorReport {
     page_.text(
         "Undamped forward critical speeds, every bearing of one stiffness in all directions on "
         "rigid "
-        "ground; and where the rotor's own bearings are on the map over their speeds.");
+        "ground; and the rotor's actual bearings over the speed.");
     page_.picture(figure(report));
     std::vector<std::string> head{"stiffness, N/m"};
     for (std::size_t mode = 0; mode < report.map.speeds.size(); ++mode) {
@@ -170,9 +169,8 @@ class RotorReport {
     page_.table(head, rows);
     if (!report.left_out.empty()) {
       missing_.push_back(
-          fmt::format("Critical speed map: the bearings at nodes {} are left out, they hold less "
-                      "than a tenth of "
-                      "the stiffest",
+          fmt::format("Critical speed map: the bearings at nodes {} are left out, softer than a "
+                      "tenth of the stiffest",
                       fmt::join(report.left_out, ", ")));
     }
     if (report.pedestals) {
@@ -196,7 +194,7 @@ class RotorReport {
     page_.table({"mode", "whirl", "rad/s", "rpm", "damping ratio", "log. decrement", ""}, rows);
     page_.picture(figure(report, kModesDrawn));
     if (report.model.size() > kModesTold) {
-      missing_.push_back(fmt::format("Whirl modes: {} are told, of {} looked at (`twin modes`)",
+      missing_.push_back(fmt::format("Whirl modes: {} are listed, of {} computed (`twin modes`)",
                                      kModesTold, report.model.size()));
     }
   }
@@ -212,16 +210,16 @@ class RotorReport {
                       beyondMark(system_.tables(), crossing.speed)});
     }
     if (rows.empty()) {
-      page_.text("No whirl meets the speed in the range.");
+      page_.text("No whirl crosses the speed line in the range.");
     } else {
-      page_.part("Where a whirl meets the speed");
+      page_.part("Where a whirl crosses the speed line");
       page_.table({"rad/s", "rpm", "whirl", "log. decrement", ""}, rows);
     }
     if (report.beyond > 0) {
-      missing_.push_back(fmt::format(
-          "Campbell diagram: {} crossings and undamped critical speeds beyond {:.5g} rad/s, which "
-          "the reduced rotor does not hold to",
-          report.beyond, system_.rotor.highest_speed));
+      missing_.push_back(
+          fmt::format("Campbell diagram: {} crossings and undamped critical speeds above {:.5g} "
+                      "rad/s, where the reduced-order rotor is not valid",
+                      report.beyond, system_.rotor.highest_speed));
     }
   }
 
@@ -242,7 +240,7 @@ class RotorReport {
            numberOrDash(margin.separation_margin), numberOrDash(margin.required_separation_margin),
            damped ? "critically damped"
            : near ? "too near"
-                  : "kept"});
+                  : "met"});
       rows.back().back() += beyondMark(system_.tables(), peak.speed);
     }
     page_.part(fmt::format("Amplification factors and separation margins at {:.5g} rad/s", speed_));
@@ -266,7 +264,7 @@ class RotorReport {
     rows.push_back(
         {"log. decrement without cross-coupling",
          report.rows.empty() ? "–" : numberOrDash(report.rows.front().mode.logDecrement())});
-    rows.push_back({"Q_0, where it stops to decay, N/m",
+    rows.push_back({"Q_0, where it ceases to decay, N/m",
                     report.margin ? numberOrDash(*report.margin) : "none found"});
     if (report.applied) {
       rows.push_back({"Q_A, of all stages, N/m", numberOrDash(*report.applied)});
@@ -283,22 +281,21 @@ class RotorReport {
     page_.table({"cross-coupled stiffness at " + report.station, ""}, rows);
     if (!report.applied) {
       missing_.push_back(
-          "Stability, level I: what the stages have is not known (--stage, --axial-stage)");
+          "Stability, level I: the stages' stiffness is not known (--stage, --axial-stage)");
       return;
     }
     const std::vector<std::string> reasons = report.reasons();
-    page_.text(
-        reasons.empty()
-            ? "Q_0/Q_A is 2 or more and the log. decrement at Q_A 0.1 or more. API 617 may ask "
-              "for level II all the same below Q_0/Q_A = 10, by its chart over the density "
-              "of the gas, which is not judged here."
-            : fmt::format("API 617 asks for level II: {}.", fmt::join(reasons, "; ")));
+    page_.text(reasons.empty()
+                   ? "Q_0/Q_A is 2 or more and the log. decrement at Q_A 0.1 or more. API 617 may "
+                     "still require level II below Q_0/Q_A = 10, by its chart over the gas "
+                     "density, which is not evaluated here."
+                   : fmt::format("API 617 requires level II: {}.", fmt::join(reasons, "; ")));
   }
 
   void rest() {
     page_.section("Left out");
     missing_.push_back(
-        "Torsion, axial vibration, nonlinear elements; forces that do not turn with the shaft "
+        "Torsion, axial vibration, nonlinear elements; forces in a fixed direction "
         "(`twin "
         "response --force`)");
     page_.list(missing_);

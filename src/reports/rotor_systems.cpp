@@ -110,7 +110,7 @@ SpeedRange SpeedRangeOptions::of(const RotorSystem& system) const {
                    : 2.0 * modes[std::min<std::size_t>(2, modes.size() - 1)].naturalFrequency();
   }
   if (!(range.from < range.to)) {
-    throw Refusal(fmt::format("--from, --to: expected --from below --to, found {:g} and {:g} rad/s",
+    throw Refusal(fmt::format("--from, --to: --from must be < --to, found {:g} and {:g} rad/s",
                               range.from, range.to));
   }
   return range;

@@ -67,10 +67,10 @@ void warnOfTables(const BuiltScene& scene, const BuiltSystem& system, SystemChec
   }
   const bool has_end = !motor.extended && motor.count > 1;
   if (has_end && reached > motor.points[motor.count - 1].speed) {
-    check.warnings.push_back(fmt::format(
-        "the motor can turn the shaft up to {:.6g} rad/s, beyond its torque table, which ends at "
-        "{:.6g} rad/s: the last torque is held, a guess",
-        reached, motor.points[motor.count - 1].speed));
+    check.warnings.push_back(
+        fmt::format("the motor can turn the shaft up to {:.6g} rad/s, beyond its torque table, "
+                    "which ends at {:.6g} rad/s: extrapolated with the last torque",
+                    reached, motor.points[motor.count - 1].speed));
   }
 }
 

@@ -31,14 +31,15 @@ std::string avoidedText(const ExclusionBands& avoid) {
   }
   return bands.empty()
              ? ""
-             : fmt::format("    avoids {}, either way round: passed at full acceleration\n",
-                           fmt::join(bands, ", "));
+             : fmt::format(
+                   "    barred speeds {}, in both directions: passed at full acceleration\n",
+                   fmt::join(bands, ", "));
 }
 
 std::string driveText(const DriveSpec& drive, const Published& published) {
   std::string out = fmt::format("  {}: {:g} rad/s", drive.name, drive.speed);
   out += drive.profile.empty()
-             ? ", constant until it is given another speed\n"
+             ? ", constant until set_speed changes it\n"
              : fmt::format(" at the start, a profile of {:.4g} s\n", profileDuration(drive));
   const std::vector<double> durations = changeDurations(drive);
   for (std::size_t i = 0; i < durations.size(); ++i) {
@@ -53,7 +54,7 @@ std::string driveText(const DriveSpec& drive, const Published& published) {
 
 std::string costText(double cost, double preparation) {
   if (preparation > 0.0) {
-    return fmt::format("not measured: its steps take about {} to prepare", inWords(preparation));
+    return fmt::format("not measured: preparing its steps takes about {}", inWords(preparation));
   }
   return std::isnan(cost) ? "not measured: it stops within the first steps"
                           : fmt::format("about {:.0f} ns", cost);
@@ -68,7 +69,8 @@ std::string inputText(const InputCheck& check) {
                          signal.frequency, signal.phase < 0.0 ? "-" : "+", std::fabs(signal.phase));
     case InputSignal::Kind::kTable:
       return fmt::format("a table of {} values ({}), {}, from t = {:g} s to {:g} s",
-                         signal.values.size(), unit, signal.hold ? "held" : "linear between them",
+                         signal.values.size(), unit,
+                         signal.hold ? "zero-order hold" : "linear interpolation",
                          static_cast<double>(signal.instants.front()) / 1e9,
                          static_cast<double>(signal.instants.back()) / 1e9);
     case InputSignal::Kind::kControlled:
@@ -82,22 +84,23 @@ std::string inputText(const InputCheck& check) {
 
 std::string checkedControllerText(const Scene& scene, const ControllerSpec& controller,
                                   const Published& published) {
-  const std::string jitter = controller.jitter == 0
-                                 ? ""
-                                 : fmt::format(", more or less by up to {:g} s",
-                                               static_cast<double>(controller.jitter) / 1e9);
+  const std::string jitter =
+      controller.jitter == 0
+          ? ""
+          : fmt::format(", jitter up to {:g} s", static_cast<double>(controller.jitter) / 1e9);
   std::string out = fmt::format(
       "  {}: {} at {:g} Hz, {}{}\n    measures {}, acts on {}\n", controller.name, controller.type,
       controller.rate,
       controller.delay == 0
           ? "without delay"
-          : fmt::format("{:g} s late", static_cast<double>(controller.delay) / 1e9),
+          : fmt::format("delay {:g} s", static_cast<double>(controller.delay) / 1e9),
       jitter, fmt::join(controller.measured, ", "), fmt::join(controller.acted_on, ", "));
   out += avoidedText(ExclusionBands(avoidedBands(scene, controller)));
   for (const WeakPassage& passage : controller.weak_passages) {
-    out += fmt::format("    {} {}\n",
-                       passage.tried ? "tries, though it is weak, the band" : "REFUSES the band",
-                       describe(passage));
+    out += fmt::format(
+        "    {} {}\n",
+        passage.tried ? "attempts, with too little torque, the band" : "REFUSES the band",
+        describe(passage));
   }
   return out + publishedText(published);
 }
@@ -112,7 +115,7 @@ std::string checkedSystemText(const SystemCheck& system) {
   out +=
       fmt::format("    coordinates   {}: {} states\n", coordinates, 2 * system.coordinates.size());
   if (system.drive) {
-    out += fmt::format("    shaft         turned by the drive {}\n", *system.drive);
+    out += fmt::format("    shaft         driven by {}\n", *system.drive);
   } else if (system.speed) {
     out += fmt::format("    shaft         {:g} rad/s, constant\n", *system.speed);
   }
@@ -142,7 +145,7 @@ std::string checkedSystemText(const SystemCheck& system) {
   if (!system.ensemble.empty()) {
     out += fmt::format("    ensemble      {}\n", system.ensemble);
   }
-  return out + fmt::format("    a step costs  {}, memory {:.1f} kB, no thread of its own\n",
+  return out + fmt::format("    a step costs  {}, memory {:.1f} kB, no extra thread\n",
                            costText(system.step_cost, system.preparation),
                            static_cast<double>(system.memory) / 1000.0);
 }
@@ -152,7 +155,7 @@ std::string checkedSystemText(const SystemCheck& system) {
 std::string text(const SceneCheck& check) {
   const Scene& scene = check.scene;
   std::string out = fmt::format(
-      "{}: scene '{}' is sound\n  step {:g} s ({:g} Hz), from t = {:g} s, gravity {:g} m/s^2\n",
+      "{}: scene '{}' is valid\n  step {:g} s ({:g} Hz), from t = {:g} s, gravity {:g} m/s^2\n",
       scene.source, printable(scene.name), scene.stepSeconds(), 1.0 / scene.stepSeconds(),
       static_cast<double>(scene.time) / 1.0e9, scene.gravity);
   if (!scene.drives.empty()) {
@@ -175,7 +178,7 @@ std::string text(const SceneCheck& check) {
   for (const SystemCheck& system : check.systems) {
     preparation += system.preparation;
   }
-  out += fmt::format("all together\n  a step costs {}", costText(check.step_cost, preparation));
+  out += fmt::format("all systems\n  a step costs {}", costText(check.step_cost, preparation));
   if (!std::isnan(check.step_cost)) {
     const double factor = static_cast<double>(scene.step) / check.step_cost;
     out +=
@@ -184,7 +187,7 @@ std::string text(const SceneCheck& check) {
   }
   return out + fmt::format(
                    "\n  memory {:.1f} kB, and {} bytes for each step in flight\n  live, three "
-                   "threads beside ROS's own: one steps everything, one publishes, one answers "
+                   "threads beside those of ROS: one steps everything, one publishes, one answers "
                    "services\n",
                    static_cast<double>(check.memory) / 1000.0, check.record);
 }

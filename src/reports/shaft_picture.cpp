@@ -97,7 +97,8 @@ std::optional<SketchPicture> shaftPicture(const Dynamics& dynamics, const PlotHi
     }
     picture.orbits.push_back(orbit);
   }
-  picture.note = fmt::format("bent x {}, at {:.4g} s", roundNumber(factor), history.time[widest]);
+  picture.note =
+      fmt::format("deflection x {}, at {:.4g} s", roundNumber(factor), history.time[widest]);
   if (speed != 0.0) {
     picture.note += fmt::format(" and {:.4g} rad/s", speed);
   }

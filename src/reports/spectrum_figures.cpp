@@ -174,9 +174,9 @@ std::string subsynchronousText(const std::vector<WindowSpectrum>& spectra) {
   }
   switch (character.kind()) {
     case LineCharacter::Kind::kKeepsRatio:
-      return "the line slower than the shaft keeps its ratio to the speed, as oil whirl does";
+      return "the subsynchronous component keeps its ratio to the speed, as oil whirl does";
     case LineCharacter::Kind::kKeepsFrequency:
-      return "the line slower than the shaft keeps its frequency, as whip and free vibration do";
+      return "the subsynchronous component keeps its frequency, as oil whip and free vibration do";
     default:
       return "";
   }
@@ -227,9 +227,9 @@ Chart cascadeChart(const std::vector<WindowSpectrum>& spectra) {
     highest = std::max(highest, *std::max_element(columns.back().begin(), columns.back().end()));
   }
   Chart chart;
-  chart.title =
-      fmt::format("cascade of full spectra: heights are roots of amplitudes, the highest {:.4g} um",
-                  1.0e6 * highest);
+  chart.title = fmt::format(
+      "cascade of full spectra: height is the square root of the amplitude, the highest {:.4g} um",
+      1.0e6 * highest);
   chart.x = {"backward          frequency (rad/s)          forward", false, true};
   chart.y = {cascade.over_speed ? "speed of the shaft (rad/s)" : "time (s)", false, true};
   // From the front backwards: what stands behind something higher is hidden.
@@ -249,7 +249,7 @@ Chart cascadeChart(const std::vector<WindowSpectrum>& spectra) {
   chart.series.push_back(orderLine(cascade, 1, ink::kVermilion));
   chart.series.push_back(orderLine(cascade, 2, ink::kGreen));
   Series slower;
-  slower.name = "slower than the shaft";
+  slower.name = "subsynchronous";
   slower.pen = Pen{ink::kPurple, 2.6};
   for (const WindowSpectrum* spectrum : cascade.spectra) {
     for (const SpectrumLine& line : spectrum->lines) {

@@ -52,7 +52,7 @@ RunningCost runningCost(const Scene& scene, double budget) {
   for (std::size_t i = 0; i < twin.systems().size(); ++i) {
     const Ensemble* const ensemble = twin.ensemble(i);
     cost.ensembles.push_back(ensemble == nullptr ? ""
-                                                 : fmt::format("{} members, {}", ensemble->count(),
+                                                 : fmt::format("{} samples, {}", ensemble->count(),
                                                                ensemble->steps().description()));
   }
   // Double the steps until a round is long enough to be timed, which warms up as well.

@@ -161,7 +161,7 @@ Figure MeasurePlots::histogram() const {
                         values_.size(), demands());
   }
   if (beyond > 0) {
-    note += fmt::format("{}{} are beyond these ends", note.empty() ? "" : "; ", beyond);
+    note += fmt::format("{}{} are outside this range", note.empty() ? "" : "; ", beyond);
   }
   if (d.count < values_.size()) {
     note += fmt::format("{}{} failed or are undefined", note.empty() ? "" : "; ",
@@ -262,7 +262,7 @@ BarChart MeasurePlots::effects() const {
   BarChart chart;
   chart.x.label = label_;
   chart.base = values_[0];
-  chart.names = {"at its smallest", "at its largest"};
+  chart.names = {"at its minimum", "at its maximum"};
   for (std::size_t j = 0; j < study_.vary.size(); ++j) {
     double smallest = std::numeric_limits<double>::infinity();
     double largest = -smallest;
@@ -299,20 +299,20 @@ std::optional<BarChart> MeasurePlots::tornado() const {
   };
   if (!answers_.sobol.empty()) {
     const SobolIndices& indices = answers_.sobol[place_];
-    chart.x.label = "Sobol's indices: parts of the variance";
-    chart.names = {"total: alone and with others", "first order: alone"};
+    chart.x.label = "Sobol indices: fractions of the variance";
+    chart.names = {"total: with interactions", "first order: alone"};
     chart.subtitle = fmt::format("{} rows, 95 % intervals", indices.rows);
     add({&indices.total, &indices.first});
   } else if (!answers_.morris.empty()) {
     const MorrisEffects& effects = answers_.morris[place_];
-    chart.x.label = nameWithUnit("change over the whole range of a number", measure_.unit);
-    chart.names = {"mean magnitude", "standard deviation: curved, or with others"};
-    chart.subtitle = fmt::format("Morris's elementary effects, {} trajectories, 95 % intervals",
+    chart.x.label = nameWithUnit("change over the whole range of a parameter", measure_.unit);
+    chart.names = {"mean magnitude", "standard deviation: nonlinear, or interactions"};
+    chart.subtitle = fmt::format("Morris elementary effects, {} trajectories, 95 % intervals",
                                  effects.trajectories);
     add({&effects.mean_magnitude, &effects.deviation});
   } else if (study_.design.kind == Design::Kind::kOneAtATime && std::isfinite(values_[0])) {
     chart = effects();
-    chart.subtitle = "one at a time, from the scene as it is";
+    chart.subtitle = "one at a time, from the nominal scene";
   } else {
     return std::nullopt;
   }
@@ -329,7 +329,7 @@ std::optional<BarChart> MeasurePlots::tornado() const {
                    [&](const BarGroup& a, const BarGroup& b) { return weight(a) > weight(b); });
   if (chart.groups.size() > kMostBars) {
     chart.subtitle +=
-        fmt::format("; the heaviest {} of {} numbers", kMostBars, chart.groups.size());
+        fmt::format("; the {} most sensitive of {} parameters", kMostBars, chart.groups.size());
     chart.groups.resize(kMostBars);
   }
   chart.title = title_;
@@ -368,7 +368,7 @@ std::optional<ResponseMap> MeasurePlots::map() const {
     }
   }
   for (const Requirement& r : required_) {
-    map.contours.push_back({r.limit, text(r, study_) + " ends here"});
+    map.contours.push_back({r.limit, "limit of " + text(r, study_)});
   }
   return map;
 }

@@ -83,7 +83,7 @@ std::string noteOf(const std::vector<Estimate>& estimates, std::uint64_t left_ou
                    const char* what) {
   std::string note;
   if (!std::isfinite(estimates.front().value)) {
-    note += ": does not vary, or is not known at enough points";
+    note += ": does not vary, or is defined at too few points";
   }
   if (left_out > 0) {
     note += fmt::format("; without {} {} with points that failed or are undefined", left_out, what);
@@ -134,12 +134,12 @@ std::string nameWithUnit(const std::string& name, const std::string& unit) {
 std::string text(const Study& study, const Answers& answers) {
   std::string text = fmt::format(
       "{}: {} points, {} by {}", study.source, answers.points,
-      study.vary.size() == 1 ? "one number" : fmt::format("{} numbers", study.vary.size()),
+      study.vary.size() == 1 ? "one parameter" : fmt::format("{} parameters", study.vary.size()),
       name(study.design.kind));
   text += answers.failures > 0 ? fmt::format(", {} failed\n\n", answers.failures) : "\n\n";
   const std::size_t width = std::max<std::size_t>(7, widthOf(study.measures, measureName));
   text += fmt::format("{:{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11}\n", "measure", width,
-                      "mean", "deviation", "smallest", "5 %", "median", "95 %", "largest");
+                      "mean", "std. dev.", "minimum", "5 %", "median", "95 %", "maximum");
   for (std::size_t k = 0; k < study.measures.size(); ++k) {
     const Distributed& d = answers.measures[k];
     text += fmt::format("{:{}}", study.measures[k].name, width);
@@ -174,7 +174,7 @@ std::string text(const Study& study, const Answers& answers) {
     text += tableOf(study, study.measures[k].name,
                     {{"mean magnitude of effects", &m.mean_magnitude},
                      {"mean", &m.mean},
-                     {"deviation", &m.deviation}},
+                     {"standard deviation", &m.deviation}},
                     noteOf(m.mean, m.left_out, "trajectories"));
   }
   return text;
@@ -263,9 +263,9 @@ std::string text(const Study& study, const StudyStatus& status) {
   std::string text =
       fmt::format("{} of {} points, {:.1f} %", status.done, study.points(), 100.0 * part);
   if (std::isfinite(status.rate)) {
-    text += fmt::format(", {:.3g} a second", status.rate);
+    text += fmt::format(", {:.3g} per second", status.rate);
     if (status.done < study.points()) {
-      text += fmt::format(", {} left at this rate", inWords(status.left));
+      text += fmt::format(", {} remaining at this rate", inWords(status.left));
     }
   }
   return text + "\n";

@@ -46,8 +46,9 @@ std::string doubtAbout(const SystemAnalysis& a) {
   if (!a.at_equilibrium && isJudgedOnlyAtRest(*a.dynamics)) {
     return "no equilibrium was found at this speed";
   }
-  return a.reduced_stability.omitted > 0 ? "not proved that no omitted mode grows"
-                                         : "too near the boundary for the numbers at hand";
+  return a.reduced_stability.omitted > 0
+             ? "not proved that all omitted modes are stable"
+             : "too near the stability boundary for the numerical precision";
 }
 
 /// The generalized force of the inputs at the scene's start.
@@ -147,7 +148,7 @@ SystemAnalysis analyze(const BuiltScene& scene, std::size_t place, ParameterSear
     return analyzeSystem(scene, system, search, modes);
   } catch (const std::exception& error) {  // an overflow: exact numbers refuse infinities
     throw RunFailure(
-        fmt::format("{}: cannot be analysed, a number is beyond the range of a double: {}",
+        fmt::format("{}: cannot be analysed, a value exceeds the range of a double: {}",
                     system.spec.name, error.what()));
   }
 }

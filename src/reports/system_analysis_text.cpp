@@ -71,7 +71,7 @@ std::string startText(const SystemAnalysis& a) {
   out += fmt::format("    acceleration    {}\n", values(a, a.acceleration, 2));
   out += fmt::format("    energy          kinetic {:.6g} J, potential {:.6g} J, Jacobi {:.6g} J\n",
                      a.energies.kinetic, a.energies.potential, a.energies.jacobi);
-  return out + fmt::format("    power           dissipated {:.6g} W, put in {:.6g} W\n",
+  return out + fmt::format("    power           dissipated {:.6g} W, supplied {:.6g} W\n",
                            a.energies.dissipated_power, a.energies.input_power);
 }
 
@@ -119,14 +119,13 @@ std::string dryFrictionText(const SystemAnalysis& a) {
     const std::string level = hold.unit == "-" ? fmt::format("coefficient {:.6g}", hold.level)
                                                : fmt::format("{:.6g} {}", hold.level, hold.unit);
     out += fmt::format("  dry friction {}: {}, {}\n", hold.place, level,
-                       hold.held             ? fmt::format("holds at the start with {:.3g} % of it",
-                                                           100.0 * std::fabs(hold.share))
+                       hold.held ? fmt::format("sticks at the start with {:.3g} % of it",
+                                               100.0 * std::fabs(hold.share))
                        : hold.sliding == 0.0 ? std::string("begins to slide at the start")
                                              : std::string("slides at the start"));
   }
   if (!out.empty()) {
-    out +=
-        "    the verdict on small motions leaves out the friction of contacts that do not slide\n";
+    out += "    the linear verdict leaves out the friction of sticking contacts\n";
   }
   return out;
 }
@@ -144,7 +143,7 @@ std::string equilibriaText(const SystemAnalysis& a) {
     return out;
   }
   return out + (a.dynamics->linear()
-                    ? "    none: a constant load acts along a motion that no stiffness resists\n"
+                    ? "    none: a constant load acts along a coordinate without stiffness\n"
                     : "    none found\n");
 }
 
@@ -183,12 +182,12 @@ std::string decrementText(const SystemAnalysis& a) {
   }
   const DecrementAmplitude& of = *a.decrement_amplitude;
   if (std::isinf(of.amplitude)) {
-    return "      of motions of any amplitude\n";
+    return "      valid for any amplitude\n";
   }
   const auto moving =
       std::find_if(a.coordinates.begin(), a.coordinates.end(),
                    [&](const CoordinateInfo& c) { return c.name == of.coordinate; });
-  return fmt::format("      of motions up to {:.4g} {} of {}\n", of.amplitude,
+  return fmt::format("      valid for amplitudes up to {:.4g} {} of {}\n", of.amplitude,
                      moving == a.coordinates.end() ? "m" : moving->unit, of.coordinate);
 }
 
@@ -201,7 +200,7 @@ std::string stabilityText(const SystemAnalysis& a) {
                         ? fmt::format("  stability: {}\n", verdictText(s.routh.verdict))
                         : fmt::format("  stability: uncertain: {}\n", a.uncertain_because);
   if (a.of_mean_loads) {
-    out += "    of the motion under mean loads: what alternates is left out\n";
+    out += "    of the motion under mean loads: alternating loads are left out\n";
   }
   if (a.periodic) {
     out += fmt::format("    of the periodic motion about the operating point, period {:.6g} s\n",
@@ -212,17 +211,15 @@ std::string stabilityText(const SystemAnalysis& a) {
     }
     return out + marginsText(s.decay_rate, s.damping_ratio, s.log_decrement);
   }
-  out += s.eigenvalues.empty()
-             ? std::string("    polynomial      none: no motion is left to judge\n")
+  out += s.eigenvalues.empty() ? std::string("    polynomial      none: no mode remains\n")
          : s.polynomial.empty()
              ? fmt::format("    polynomial      left out beyond {} coordinates\n",
                            kMostExactCoordinates)
              : fmt::format("    polynomial      {:.6g}\n", fmt::join(s.polynomial, "  "));
   if (s.omitted > 0) {
-    out +=
-        s.routh.verdict == Verdict::kUncertain
-            ? "    omitted         not proved that none of them grows: --modes all looks at each\n"
-            : "    omitted         of none of them do the numbers below tell\n";
+    out += s.routh.verdict == Verdict::kUncertain
+               ? "    omitted         not proved to be stable: --modes all computes each\n"
+               : "    omitted         not included in the values below\n";
   }
   out += routhText(s.routh);
   out += marginsText(s.decay_rate, s.damping_ratio, s.log_decrement);
@@ -240,10 +237,11 @@ std::string criticalSpeedsText(const SystemAnalysis& a) {
   std::string beyond =
       a.critical_speeds_beyond == 0
           ? ""
-          : fmt::format("    {} more left out: the reduced rotor holds up to {:g} rad/s only\n",
-                        a.critical_speeds_beyond, a.highest_speed);
+          : fmt::format(
+                "    {} more left out: the reduced-order rotor is valid only up to {:g} rad/s\n",
+                a.critical_speeds_beyond, a.highest_speed);
   if (std::isfinite(a.critical_speeds_to)) {
-    beyond += fmt::format("    looked for up to {:.6g} rad/s\n", a.critical_speeds_to);
+    beyond += fmt::format("    searched up to {:.6g} rad/s\n", a.critical_speeds_to);
   }
   if (a.critical_speeds.empty()) {
     return a.dynamics->isRotor() ? "  critical speeds: none\n" + beyond : "";
@@ -278,7 +276,7 @@ std::string crossCouplingText(const SystemAnalysis& a) {
   return fmt::format("  cross-coupling margin at {}: {}\n", a.cross_coupling->station,
                      a.cross_coupling->stiffness
                          ? fmt::format("{:.6g} N/m", *a.cross_coupling->stiffness)
-                         : std::string("none found, no forward mode grows"));
+                         : std::string("none found, all forward modes stay stable"));
 }
 
 /// "10 N s/m"; "0.5" of a number without a unit.
@@ -291,7 +289,7 @@ std::string lossText(const SystemAnalysis& a, const LossOfStability& loss) {
     case LossKind::kFlutter:
       return fmt::format("{} at {:.6g} rad/s", lossName(loss.kind, *a.dynamics), loss.frequency);
     case LossKind::kNoMotion:
-      return "no motion like it beyond";
+      return "no such motion beyond";
     default:
       return "divergence";
   }
@@ -301,7 +299,7 @@ std::string parameterMarginsText(const SystemAnalysis& a) {
   if (!a.parameter_margins) {
     return a.at_equilibrium && a.reduced_stability.bounded()
                ? fmt::format(
-                     "  numbers that stability is lost by: not looked for, of {} coordinates "
+                     "  instability points of the parameters: not computed for {} coordinates "
                      "(--parameters)\n",
                      a.coordinates.size())
                : "";
@@ -310,11 +308,13 @@ std::string parameterMarginsText(const SystemAnalysis& a) {
   const MarginResolution resolution = marginResolution(*a.dynamics);
   if (margins.empty()) {
     return fmt::format(
-        "  no number, changed alone up to {:g} times in strides of {:g} %, loses stability\n",
+        "  no parameter, changed alone up to {:g} times in increments of {:g} %, causes "
+        "instability\n",
         resolution.reach, 100.0 * resolution.stride);
   }
   std::string out = fmt::format(
-      "  stability is lost by one number, the nearest first (up to {:g} times, strides of {:g} "
+      "  instability points of single parameters, nearest first (up to {:g} times, increments of "
+      "{:g} "
       "%)\n",
       resolution.reach, 100.0 * resolution.stride);
   std::size_t shown = 0;
@@ -337,13 +337,13 @@ std::string spreadMarginText(const SystemAnalysis& a) {
   }
   const SpreadMargin& margin = *a.spread_margin;
   return fmt::format(
-      "  within its spread {} of {} members grow, the slowest decay found is {:.4g} 1/s{}\n",
+      "  {} of {} samples within the spread are unstable, the lowest decay rate is {:.4g} 1/s{}\n",
       margin.beyond(0.0), margin.decay_rates.size(), margin.lowest_decay_rate,
-      margin.stable_throughout ? "; stable throughout (Kharitonov)" : "");
+      margin.stable_throughout ? "; robustly stable (Kharitonov)" : "");
 }
 
 std::string steadySpeedsText(const SystemAnalysis& a) {
-  std::string out = a.steady_speeds.empty() ? "" : "  steady speeds on its motor\n";
+  std::string out = a.steady_speeds.empty() ? "" : "  steady speeds with its motor\n";
   for (const SteadySpeed& steady : a.steady_speeds) {
     out += fmt::format("    {:.6g} rad/s ({:.4g} rpm), torque {:.4g} N m: {}{}\n", steady.speed,
                        steady.speed * 30.0 / kPi, steady.torque,

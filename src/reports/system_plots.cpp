@@ -154,7 +154,7 @@ std::vector<SystemPlot> systemPlots(const BuiltSystem& system, const Ensemble* e
       phaseFigure(system, history));
   add("energy", "energies", energyFigure(history));
   if (ensemble != nullptr) {
-    add("ensemble", fmt::format("{} members", ensemble->count()),
+    add("ensemble", fmt::format("{} samples", ensemble->count()),
         ensembleFigure(*ensemble, history));
   }
   return plots;

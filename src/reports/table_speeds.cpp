@@ -23,19 +23,19 @@ std::string beyondMark(const DataSpeeds& tables, double speed) {
 }
 
 std::string beyondName(const DataSpeeds& tables) {
-  return areFilms(tables) ? "beyond the films" : "beyond the tables";
+  return areFilms(tables) ? "outside the film range" : "outside the tables";
 }
 
 std::string beyondText(const DataSpeeds& tables) {
   if (areFilms(tables)) {
     return fmt::format(
-        "{}, which carry their loads from {:.5g} rad/s ({:.5g} rpm) on at eccentricities below "
-        "0.95: slower the journals touch, and the coefficients are a guess",
+        "{}, which carry their loads at eccentricities below 0.95 from {:.5g} rad/s ({:.5g} rpm) "
+        "on: below, the journals touch and the coefficients are extrapolated",
         beyondName(tables), tables.from, tables.from / kRpm);
   }
   return fmt::format(
-      "beyond the tables of bearings and pedestals, which cover {:.5g} to {:.5g} rad/s ({:.5g} to "
-      "{:.5g} rpm): the nearest row is held, a guess",
+      "outside the tables of bearings and pedestals, which cover {:.5g} to {:.5g} rad/s ({:.5g} to "
+      "{:.5g} rpm): extrapolated with the nearest row",
       tables.from, tables.to, tables.from / kRpm, tables.to / kRpm);
 }
 

@@ -29,8 +29,8 @@ Pen methodPen(const std::string& integrator) {
 
 Figure figure(const TradeoffReport& report) {
   Chart work, order;
-  work.title = "work and precision";
-  work.x = {"CPU time for a simulated second (s)", true, false};
+  work.title = "work-precision diagram";
+  work.x = {"CPU time per simulated second (s)", true, false};
   work.y = {"largest relative position error", true, false};
   order.title = "error over the method's step";
   order.x = {"step of the method (s)", true, false};

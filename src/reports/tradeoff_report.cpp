@@ -182,7 +182,7 @@ void recommend(const Scene& one, TradeoffReport& report) {
       row.worst <= report.tolerance
           ? fmt::format("the cheapest at the scene's step whose error, {:.1e}, is within {:g}",
                         row.worst, report.tolerance)
-          : fmt::format("none at the scene's step keeps {:g}: the most accurate, {:.1e}",
+          : fmt::format("none at the scene's step is within {:g}: the most accurate, {:.1e}",
                         report.tolerance, row.worst);
 }
 

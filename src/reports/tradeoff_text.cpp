@@ -31,14 +31,15 @@ std::string tradeoffRowText(const TradeoffReport& report, std::size_t index) {
 std::string text(const TradeoffReport& r) {
   std::string out = fmt::format("{} ({}), {:g} s\n", r.system, r.model, r.duration);
   out += fmt::format(
-      "  judged by {}, {} in {:g} s, and {}, {}: its own error is below {:.1e}{}\n",
+      "  reference: {}, {} in {:g} s, and {}, {}: its error is below {:.1e}{}\n",
       r.reference.integrator, r.reference.substeps, 1.0e-9 * static_cast<double>(r.reference.step),
       r.checked_by.integrator, r.checked_by.substeps, r.reference_error,
-      r.compared < r.duration ? fmt::format("; compared up to {:.4g} s: beyond, the motion "
-                                            "magnifies errors past what any step resolves",
-                                            r.compared)
-                              : "");
-  out += fmt::format("  a small disturbance of the start grows {:.3g}-fold\n\n", r.growth);
+      r.compared < r.duration
+          ? fmt::format(
+                "; compared up to {:.4g} s: after that, the chaotic motion amplifies every error",
+                r.compared)
+          : "");
+  out += fmt::format("  a small perturbation of the start grows {:.3g}-fold\n\n", r.growth);
   out += fmt::format("  {:<19} {:>10} {:>8}  {:>9} {:>9} {:>9} {:>9}  {:>9} {:>8} {:>6} {:>9}\n",
                      "integrator", "step (s)", "substeps", "position", "radius", "phase/rad",
                      "energy", "drift", "ns/step", "+-", "x real");
@@ -48,15 +49,15 @@ std::string text(const TradeoffReport& r) {
     }
     out += tradeoffRowText(r, i);
   }
-  out += "\n  * nothing is both cheaper and more accurate\n";
+  out += "\n  * no other is both cheaper and more accurate\n";
   if (r.recommended) {
     const StepSetting& best = r.rows[*r.recommended].setting;
-    out +=
-        fmt::format("  recommended: {}, {} a step: {}\n", best.integrator, best.substeps, r.reason);
+    out += fmt::format("  recommended: {}, {} per step: {}\n", best.integrator, best.substeps,
+                       r.reason);
   } else {
     out += "  " + r.reason + "\n";
   }
-  return out + fmt::format("  auto takes: {}\n", r.automatic);
+  return out + fmt::format("  auto selects: {}\n", r.automatic);
 }
 
 Json rowJson(const TradeoffReport& report, const TradeoffRow& row) {

@@ -85,31 +85,29 @@ void addUnbalanceNotes(UnbalanceReport& report) {
     const bool one_speed =
         found.highest_speed - found.lowest_speed < kSameSpeed * found.highest_speed;
     report.notes.push_back(fmt::format(
-        "the log does not tell {} of its unknowns: {}", found.untold.size(),
-        one_speed
-            ? "at one speed run-out is the same as unbalance. A second speed tells them apart, "
-              "a slow one best; or take the run-outs for known (--known-run-out)"
-            : "some planes move the probes alike at these speeds, as where there are more of "
-              "them than modes that take part. Fewer planes (--planes), or a critical speed "
-              "more, tell them"));
+        "{} unknowns are not identifiable from the log: {}", found.untold.size(),
+        one_speed ? "at one speed run-out and unbalance have the same effect. Add a second speed, "
+                    "preferably a slow one, or use known run-outs (--known-run-out)"
+                  : "some planes have linearly dependent effects at these speeds. Use fewer planes "
+                    "(--planes), or a range with another critical speed"));
     std::vector<std::string> said;
     for (const UntoldCombination& untold : found.untold) {
       const std::string who = partners(report, untold);
       if (std::find(said.begin(), said.end(), who) == said.end()) {
         said.push_back(who);
-        report.notes.push_back("not told apart: " + who);
+        report.notes.push_back("not identifiable separately: " + who);
       }
     }
   }
   if (found.beyond_noise > kMuchBeyond) {
     report.notes.push_back(fmt::format(
-        "what is left is {:.3g} times the probes' noise: ambient vibration, or a model that is not "
-        "the machine's; deviations hold for the model as it is (`twin fit`, `twin modes`)",
+        "the residual is {:.3g} times the probes' noise: ambient vibration or a model error; the "
+        "standard deviations assume a correct model (`twin fit`, `twin modes`)",
         found.beyond_noise));
   }
   if (found.highest_speed > report.system->rotor.highest_speed) {
     report.notes.push_back(
-        fmt::format("the reduced rotor of the model holds up to {:g} rad/s (--to)",
+        fmt::format("the reduced-order rotor of the model is valid up to {:g} rad/s (--to)",
                     report.system->rotor.highest_speed));
   }
 }
@@ -144,7 +142,7 @@ std::string massLine(const UnbalanceReport& report, std::size_t plane, double si
              ? fmt::format("  {:<18} {:>14.6g} +- {:<9.2g} {:>11.3f} +- {:.2g}\n", name,
                            std::abs(estimate.value), estimate.deviation,
                            angleOf(report, sign * estimate.value), angleDeviation(estimate))
-             : fmt::format("  {:<18} {:>14}\n", name, "not told");
+             : fmt::format("  {:<18} {:>14}\n", name, "unidentifiable");
 }
 
 }  // namespace
@@ -256,7 +254,7 @@ std::string text(const UnbalanceReport& report) {
   const UnbalanceEstimate& found = report.estimate;
   std::string out = fmt::format(
       "{}: {:.4g} s from {:.4g} to {:.4g} rad/s, {} probes\n"
-      "  {:.3g} m rms turns with the shaft, {:.3g} m rms is left (of each probe)\n"
+      "  {:.3g} m rms synchronous, {:.3g} m rms residual (of each probe)\n"
       "unbalance            mass x radius, kg m            angle, deg   (standard deviations)\n",
       report.system->title(), found.duration, found.lowest_speed, found.highest_speed,
       report.probes.size(), found.synchronous, found.noise);
@@ -274,7 +272,7 @@ std::string text(const UnbalanceReport& report) {
     out += one.told ? fmt::format("  {:<18} {:>14.4g} +- {:<9.2g} {:>11.2f}\n", name,
                                   std::abs(one.value), one.deviation,
                                   -std::arg(one.value) / kDegree + 0.0)
-                    : fmt::format("  {:<18} {:>14}\n", name, "not told");
+                    : fmt::format("  {:<18} {:>14}\n", name, "unidentifiable");
   }
   for (const std::string& note : report.notes) {
     out += note + "\n";

@@ -23,7 +23,7 @@ std::string verdictText(Verdict verdict) {
     case Verdict::kUncertain:
       break;
   }
-  return "uncertain: too near the boundary for the numbers at hand";
+  return "uncertain: too near the stability boundary for the numerical precision";
 }
 
 std::string routhText(const RouthResult& routh) {

@@ -36,7 +36,7 @@ double outward(double edge, bool upwards) {
 void readBands(const YAML::Node& list, const std::string& key, std::vector<SpeedBand>& bands,
                Complaints& complaints) {
   if (!list.IsSequence()) {
-    complaints.add(key, fmt::format("must be a list of bands of speed, found {}", shown(list)));
+    complaints.add(key, fmt::format("must be a list of speed bands, found {}", shown(list)));
     return;
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -64,9 +64,10 @@ void checkSpeeds(const DriveSpec& drive, const std::string& key, std::int64_t st
     const std::optional<SpeedBand> band = avoid.bandOf(speed, acceleration, jerk);
     if (band) {
       complaints.add(
-          at, fmt::format("must lie outside of the band from {0:.{2}g} to {1:.{2}g} "
-                          "rad/s that the drive avoids, found {3}",
-                          outward(band->from, false), outward(band->to, true), kDigits, speed));
+          at,
+          fmt::format(
+              "must be outside the barred speed range from {0:.{2}g} to {1:.{2}g} rad/s, found {3}",
+              outward(band->from, false), outward(band->to, true), kDigits, speed));
     }
     return !band;
   };
@@ -114,7 +115,7 @@ std::vector<SpeedBand> criticalBands(const Scene& scene, std::size_t drive,
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      complaints.add(key, fmt::format("the critical speeds of systems.{} cannot be found: {}",
+      complaints.add(key, fmt::format("the critical speeds of systems.{} cannot be computed: {}",
                                       system.name, error.what()));
     }
   }
@@ -124,16 +125,15 @@ std::vector<SpeedBand> criticalBands(const Scene& scene, std::size_t drive,
 void readAvoidance(const YAML::Node& node, const std::string& key, std::size_t drive, Scene& scene,
                    Complaints& complaints) {
   DriveSpec& spec = scene.drives[drive];
-  const MapReader map(node, key, {"bands", "critical_speeds", "margin"}, "key of what to avoid",
+  const MapReader map(node, key, {"bands", "critical_speeds", "margin"}, "key of barred speeds",
                       complaints);
   if (!map.usable()) {
     return;
   }
   if (spec.motor) {
-    complaints.add(
-        key,
-        "a motor's speed is an outcome: it can avoid nothing. A controller of type speed "
-        "brings its shaft past bands: give them to it, as avoid or critical_speeds");
+    complaints.add(key,
+                   "must not be given with a motor, whose speed is not prescribed: give avoid or "
+                   "critical_speeds to a controller of type speed");
     return;
   }
   if (map.has("bands")) {
@@ -146,7 +146,7 @@ void readAvoidance(const YAML::Node& node, const std::string& key, std::size_t d
     margin =
         map.numberBetween("margin", kLeastBandMargin, kMostBandMargin, "of a critical speed", 0.0);
     if (!critical) {
-      complaints.add(map.key("margin"), "is one about critical_speeds: true");
+      complaints.add(map.key("margin"), "needs critical_speeds: true");
     }
   }
   if (critical) {

@@ -29,12 +29,11 @@ std::string objectionToReplace(const BuiltSystem& before, const BuiltSystem& nex
   const std::string had = coordinateNames(*before.dynamics);
   const std::string has = coordinateNames(*next.dynamics);
   if (has != had || next.dynamics->isRotor() != before.dynamics->isRotor()) {
-    return fmt::format(
-        "would change the coordinates from {} to {}: that needs a new start with another scene",
-        had, has);
+    return fmt::format("would change the coordinates from {} to {}: restart with another scene",
+                       had, has);
   }
   if (publishedStations("", *before.dynamics) != publishedStations("", *next.dynamics)) {
-    return "would change the stations that are published: that needs a new start";
+    return "would change the published stations: restart with another scene";
   }
   const std::string objection =
       integratorObjection(next.setup(), next.spec.drive.has_value(), next.spec.integrator);
@@ -71,9 +70,8 @@ SharedSystem BuiltSystem::with(const std::vector<std::string>& paths,
   Complaints complaints(source);
   const std::string key = "systems." + spec.name + ".parameters";
   if (spec.ensemble.count > 0) {
-    complaints.add(key,
-                   "are those of an ensemble, drawn at the start: they cannot be changed while it "
-                   "runs");
+    complaints.add(
+        key, "belong to an ensemble, drawn at the start: they cannot be changed while it runs");
   }
   SystemSpec changed = spec;
   for (std::size_t i = 0; i < paths.size(); ++i) {

@@ -31,7 +31,7 @@ ChangedController withParameters(const Scene& scene, const ControllerSpec& contr
   const std::string key = fmt::format("controllers.{}.parameters", controller.name);
   ChangedController changed{controller, nullptr};
   if (!hasParameters(controller)) {
-    complaints.add(key, "it is the other process that has them");
+    complaints.add(key, "must be changed in the controller's own process");
   } else {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       setParameter(paths[i], values[i], *findController(controller.type), changed.spec, complaints);

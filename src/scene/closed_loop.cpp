@@ -46,9 +46,10 @@ void checkLimit(const ControllerSpec& controller, const Eigen::VectorXd& outputs
     if (std::fabs(output) > limit) {
       const ActedInput& acted = controller.acts_on[i];
       const std::string unit = held.at(acted.system).dynamics->inputs()[acted.input].unit;
-      throw RunFailure(fmt::format(
-          "where it is to be held, {} would have to be {:.4g} {}: the actuator of {} gives {:g}",
-          controller.acted_on[i], output, unit, controller.name, limit));
+      throw RunFailure(
+          fmt::format("holding the setpoint needs {0} = {1:.4g} {2}: the actuator of {3} is "
+                      "limited to {4:g} {2}",
+                      controller.acted_on[i], output, unit, controller.name, limit));
     }
   }
 }

@@ -102,7 +102,8 @@ void readMeasured(const MapReader& map, const SignalNames& signals, ControllerSp
       } else {
         complaints.add(
             key + ".direction",
-            fmt::format("is for a rotor or a station of it, but {} has its own", quoted(name)));
+            fmt::format("needs a rotor or a station of one; the direction of {} is fixed",
+                        quoted(name)));
       }
     }
     if (found) {
@@ -128,7 +129,7 @@ void readActedOn(const MapReader& map, Scene& scene, ControllerSpec& controller,
     const std::string input = system.setup->made.dynamics->inputs()[found->input].name;
     const auto signal = system.inputs.find(input);
     if (signal != system.inputs.end()) {
-      complaints.add(key, fmt::format("{} is {} already", quoted(name),
+      complaints.add(key, fmt::format("{} is already {}", quoted(name),
                                       signal->second.kind == InputSignal::Kind::kControlled
                                           ? "acted on by a controller"
                                           : "given by the system's inputs"));
@@ -147,7 +148,7 @@ void readSurroundings(const MapReader& map, Scene& scene, ControllerSpec& contro
                      keys, fmt::format("key of {}", name), complaints);
   };
   const MapReader sensor = part("sensor", {"resolution", "noise", "bandwidth", "range", "seed"});
-  const std::string unit = "in the unit of what is measured";
+  const std::string unit = "in the unit of the measured signal";
   controller.sensor.resolution = sensor.number("resolution", Range::kNotNegative, unit, 0.0);
   controller.sensor.noise = sensor.number("noise", Range::kNotNegative, unit, 0.0);
   controller.sensor.range = sensor.number("range", Range::kNotNegative, unit, 0.0);
@@ -178,10 +179,9 @@ void readDelay(const MapReader& map, ControllerSpec& controller, Complaints& com
     jitter = given.numberBetween("jitter", 0.0, kMaxSignalDelay, "s", 0.0);
     controller.jitter_seed = static_cast<std::uint32_t>(given.integer("seed", 0, 2147483647, 1));
     if (jitter > delay) {
-      complaints.add(given.key("jitter"),
-                     fmt::format("must be at most the mean, {:g} s: no output comes before its "
-                                 "sample, found {:g}",
-                                 delay, jitter));
+      complaints.add(
+          given.key("jitter"),
+          fmt::format("must be at most the mean delay, {:g} s, found {:g}", delay, jitter));
     }
   } else {
     delay = map.numberBetween("delay", 0.0, kMaxSignalDelay, "s", 0.0);
@@ -222,7 +222,7 @@ void findBands(const MapReader& map, const Scene& scene, ControllerSpec& control
                       margin > 0.0 ? std::optional<double>(margin) : std::nullopt,
                       map.key("parameters.critical_speeds"), complaints);
   } else if (margin != 0.0) {
-    complaints.add(key, "is one about critical_speeds: true");
+    complaints.add(key, "needs critical_speeds: true");
   }
 }
 
@@ -232,11 +232,11 @@ void readExternal(const MapReader& map, const ControllerInfo& info, const Scene&
   controller.parameters["timeout"] = map.numberBetween("timeout", 1.0e-6, 1.0e3, "s", std::nullopt);
   for (const SettingInfo& setting : info.settings) {
     controller.settings.choices[setting.name] =
-        map.choice(setting.name, setting.choices, "a word", setting.choices.front());
+        map.choice(setting.name, setting.choices, "one of its values", setting.choices.front());
   }
   if (map.has("parameters")) {
     complaints.add(map.key("parameters"),
-                   "must not be given: it is the other process that has them");
+                   "must not be given: the controller's own process has them");
   }
   const std::int64_t shortest = controller.delay - controller.jitter;
   if (controller.settings.choices["mode"] == "lockstep" && shortest < scene.step) {
@@ -254,9 +254,10 @@ void checkSystems(const MapReader& map, const Scene& scene, const ControllerSpec
     const auto is_it = [&](const ActedInput& input) { return input.system == i; };
     if (!scene.systems[i].ensemble.spread.empty() &&
         std::any_of(controller.acts_on.begin(), controller.acts_on.end(), is_it)) {
-      complaints.add(map.key("acts_on"),
-                     fmt::format("systems.{} has a spread: its members would have no controllers",
-                                 scene.systems[i].name));
+      complaints.add(
+          map.key("acts_on"),
+          fmt::format("systems.{} has a spread: the samples of an ensemble cannot have controllers",
+                      scene.systems[i].name));
     }
   }
 }
@@ -276,7 +277,7 @@ ControllerSpec readController(const YAML::Node& node, const std::string& key,
   const std::size_t before = complaints.all().size();
   const ControllerInfo* info = nullptr;
   if (map.has("type")) {
-    controller.type = map.choice("type", controllerNames(), "the name of a kind of controller", "");
+    controller.type = map.choice("type", controllerNames(), "the name of a controller type", "");
     info = findController(controller.type);
   } else {
     complaints.add(map.key("type"),
@@ -290,7 +291,7 @@ ControllerSpec readController(const YAML::Node& node, const std::string& key,
   const bool external = info != nullptr && info->name == "external";
   for (const char* const own : {"mode", "timeout", "on_timeout"}) {
     if (!external && map.has(own)) {
-      complaints.add(map.key(own), "is for a controller in another process, of type external");
+      complaints.add(map.key(own), "needs type: external, a controller in another process");
     }
   }
   if (external) {

@@ -69,7 +69,7 @@ void requireDifferent(const std::vector<std::string>& header) {
   std::vector<std::string> repeated;
   for (const auto& [name, numbers] : columns) {
     if (!name.empty() && numbers.size() > 1) {
-      repeated.push_back(fmt::format("columns {} are called {}", listed(numbers), quoted(name)));
+      repeated.push_back(fmt::format("columns {} are named {}", listed(numbers), quoted(name)));
     }
   }
   if (repeated.size() > kMostTold) {
@@ -78,8 +78,8 @@ void requireDifferent(const std::vector<std::string>& header) {
     repeated.push_back(fmt::format("and {} more such names", more));
   }
   if (!repeated.empty()) {
-    throw Refusal(fmt::format("line 1: each column must have a name of its own; {}",
-                              fmt::join(repeated, "; ")));
+    throw Refusal(
+        fmt::format("line 1: column names must be unique; {}", fmt::join(repeated, "; ")));
   }
 }
 
@@ -105,7 +105,7 @@ void requireFile(const std::string& path) {
     throw Refusal("not a file");
   }
   if (std::filesystem::file_size(path, error) > kMaxCsvSize) {
-    throw Refusal("larger than 64 MiB: not a table of an input");
+    throw Refusal("larger than 64 MiB, the limit of an input table");
   }
 }
 

@@ -44,7 +44,7 @@ std::vector<MotorPoint> readMotorTable(const YAML::Node& list, const std::string
     complaints.add(
         key, fmt::format("must be a list of 2 to {} maps of speed and torque, found {}",
                          Motor::kMostPoints,
-                         list.IsSequence() ? fmt::format("{} of them", list.size()) : shown(list)));
+                         list.IsSequence() ? fmt::format("{} maps", list.size()) : shown(list)));
     return table;
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -111,7 +111,7 @@ DriveSpec readDrive(const YAML::Node& node, const std::string& key, const std::s
     drive.motor = readMotor(map.at("motor"), map.key("motor"), complaints);
     if (map.has("profile")) {
       complaints.add(map.key("profile"),
-                     "a motor's speed is an outcome: give a motor or a profile, not both");
+                     "a motor's speed is not prescribed: give a motor or a profile, not both");
     }
   }
   if (map.has("profile")) {

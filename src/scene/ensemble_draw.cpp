@@ -36,7 +36,8 @@ bool put(const Spread& spread, double value, const ModelInfo& model, SystemSpec&
 }
 
 [[noreturn]] void refuseDraws(const std::string& what) {
-  throw Refusal(fmt::format("{}: not one of {} draws is in the number's range", what, kMostDraws));
+  throw Refusal(
+      fmt::format("{}: none of {} random draws is within the parameter's range", what, kMostDraws));
 }
 
 /// Number by number, each drawn again until it is in its range.

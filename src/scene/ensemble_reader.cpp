@@ -84,7 +84,7 @@ std::optional<double> centre(const std::string& path, const ModelInfo& model,
   const auto found = std::find(all.names.begin(), all.names.end(), path);
   if (found == all.names.end()) {
     const std::string near = nearestName(path, all.names);
-    complaints.add(key, fmt::format("unknown number of {}{}", spec.model,
+    complaints.add(key, fmt::format("unknown parameter of {}{}", spec.model,
                                     near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
     return std::nullopt;
   }
@@ -105,11 +105,11 @@ void readWidth(const MapReader& map, const std::string& key, double about, const
     spread.normal = width.normal;
     spread.width = width.relative ? value * std::fabs(about) : value;
     if (!std::isfinite(spread.width)) {
-      complaints.add(map.key(width.key), "is beyond the range of doubles");
+      complaints.add(map.key(width.key), "exceeds the range of a double");
     }
     if (width.relative && about == 0.0) {
       complaints.add(map.key(width.key),
-                     fmt::format("is relative to 0: give the width in {}", unit));
+                     fmt::format("is relative, but the value is 0: give the width in {}", unit));
     }
   }
   if (given != 1) {
@@ -148,7 +148,7 @@ void readEnsemble(const MapReader& system, const ModelInfo& model,
                   Complaints& complaints) {
   if (!system.has("count") && !system.has("spread")) {
     if (system.has("seed")) {
-      complaints.add(system.key("seed"), "needs a spread, that members are drawn of");
+      complaints.add(system.key("seed"), "needs a spread, from which the samples are drawn");
     }
     return;
   }
@@ -158,7 +158,9 @@ void readEnsemble(const MapReader& system, const ModelInfo& model,
   }
   spec.ensemble.seed = static_cast<std::uint32_t>(system.integer("seed", 0, kLargestSeed, 1));
   if (!system.has("spread")) {
-    complaints.add(system.key("spread"), "missing; must say what differs from member to member");
+    complaints.add(
+        system.key("spread"),
+        "missing; must name the parameters or initial values that differ between the samples");
     return;
   }
   const MapReader spread(system.at("spread"), system.key("spread"), {}, "", complaints);

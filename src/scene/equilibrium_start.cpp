@@ -62,7 +62,7 @@ void moveToEquilibrium(const SystemSpec& given, const std::optional<StartingStat
   }
   if (!own && given.rest->asked) {
     throw Refusal(
-        fmt::format("no equilibrium was found at {:g} rad/s to start at", given.rest->speed));
+        fmt::format("no equilibrium to start at was found at {:g} rad/s", given.rest->speed));
   }
   const std::size_t shape = given.q.size() - (around.motor ? 1 : 0);
   for (std::size_t i = 0; i < shape; ++i) {

@@ -38,15 +38,15 @@ InputSignal tableOf(const std::vector<double>& times, const std::vector<double>&
   for (std::size_t row = 0; row < times.size(); ++row) {
     if (!(std::fabs(times[row]) <= kMaxInstant)) {
       throw Refusal(
-          fmt::format("row {}: {} must lie within +-1e9 s, found {} s", row + 1, name, times[row]));
+          fmt::format("row {}: {} must be within +-1e9 s, found {} s", row + 1, name, times[row]));
     }
     instants.push_back(std::llround(times[row] * 1e9));
   }
   InputSignal signal = InputSignal::table(std::move(instants), values, hold);
   const SignalFault fault = faultOf(signal);
   if (fault.expected != nullptr) {
-    throw Refusal(fmt::format("row {}: {} {}, by a nanosecond or more, found {} s", fault.row + 1,
-                              name, fault.expected, times[fault.row]));
+    throw Refusal(fmt::format("row {}: {} {} by at least 1 ns, found {} s", fault.row + 1, name,
+                              fault.expected, times[fault.row]));
   }
   return signal;
 }
@@ -59,9 +59,10 @@ InputSignal readFile(const MapReader& map, const std::string& folder, bool hold,
   std::filesystem::path path(name);
   if (path.is_relative()) {
     if (folder.empty()) {
-      complaints.add(map.key("table"), fmt::format("must be an absolute path, for this scene is in "
-                                                   "no folder, found '{}'",
-                                                   name));
+      complaints.add(
+          map.key("table"),
+          fmt::format("must be an absolute path (the scene was not read from a file), found '{}'",
+                      name));
       return {};
     }
     path = std::filesystem::path(folder) / path;
@@ -108,8 +109,9 @@ InputSignal readLists(const MapReader& map, const std::string& unit, bool hold,
     return {};
   }
   if (times.size() != values.size()) {
-    complaints.add(map.key("values"), fmt::format("must be as many as times, {}, found {}",
-                                                  times.size(), values.size()));
+    complaints.add(map.key("values"),
+                   fmt::format("must have as many entries as times, {}, found {}", times.size(),
+                               values.size()));
     return {};
   }
   try {

@@ -54,13 +54,13 @@ std::string objectionToUnit(const YAML::Node& node, const std::string& unit) {
     return "";
   }
   if (!isUnit(parts->second)) {
-    return ": there is no unit " + quoted(parts->second);
+    return ": unknown unit " + quoted(parts->second);
   }
   if (unitScale(parts->second, unit) != 0.0) {
     return "";
   }
-  return unit == "-" ? ": it has no unit"
-                     : fmt::format(": {} is no unit of {}", quoted(parts->second), unit);
+  return unit == "-" ? ": the value is dimensionless"
+                     : fmt::format(": {} cannot be converted to {}", quoted(parts->second), unit);
 }
 
 void Complaints::add(const std::string& key, const std::string& text) {
@@ -94,7 +94,7 @@ MapReader::MapReader(const YAML::Node& node, std::string key, const std::vector<
     }
     const std::string name = entry.first.Scalar();
     if (has(name)) {
-      complaints_.add(this->key(name), "stands twice");
+      complaints_.add(this->key(name), "duplicate key");
       continue;
     }
     const std::string unknown = known.empty() ? "" : objectionToName(name, known, kind);

@@ -98,7 +98,7 @@ std::string objectionToName(const std::string& name, const std::vector<std::stri
     return "";
   }
   if (const std::string here = nameHere(name, known); !here.empty()) {
-    return fmt::format("unknown {}; here it is '{}'", kind, here);
+    return fmt::format("unknown {}; write '{}'", kind, here);
   }
   const std::string near = nearestName(name, known);
   return fmt::format("unknown {}{}", kind,

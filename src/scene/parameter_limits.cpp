@@ -54,12 +54,11 @@ std::string objectionToRates(const Dynamics& dynamics, const SystemSpec& spec, d
     rate = largestRate(dynamics, spec, speed);
   } catch (const std::exception&) {  // it has no small deviations from there
   }
-  return rate <= kLargestRate
-             ? ""
-             : fmt::format(
-                   "together make a system that moves at {:.2g} 1/s: beyond {:.0e} 1/s its "
-                   "equations overflow",
-                   rate, kLargestRate);
+  return rate <= kLargestRate ? ""
+                              : fmt::format(
+                                    "together give a fastest rate of {:.2g} 1/s: above {:.0e} 1/s "
+                                    "the equations overflow",
+                                    rate, kLargestRate);
 }
 
 }  // namespace whirl_twin

@@ -67,7 +67,7 @@ std::optional<Path> parsed(const std::string& text) {
   return at == text.size() ? std::optional<Path>(path) : std::nullopt;
 }
 
-/// Where the number of a path stands, or why there is none.
+/// Where the parameter of a path stands, or why there is none.
 template <class Number>
 struct Place {
   using Row = std::conditional_t<std::is_const_v<Number>, const TableRow, TableRow>;
@@ -115,8 +115,8 @@ class Search {
   Place<Number> ofParameter(const Path& path) const {
     if (path.name == "speed" && turnsShaft(info_)) {
       return none("speed",
-                  "belongs to the shaft: turn it by a drive of the scene, whose speed set_speed "
-                  "changes");
+                  "must not be changed as a parameter: give the shaft a drive and change its speed "
+                  "with set_speed");
     }
     const auto parameter =
         std::find_if(info_.parameters.begin(), info_.parameters.end(),
@@ -132,7 +132,7 @@ class Search {
       return none(path.name, objectionToName(path.name, known, "parameter of " + info_.name));
     }
     if (!path.indices.empty() || !path.column.empty()) {
-      return none(text_, "is one number: leave out what follows the name");
+      return none(text_, "is a single number: write the name without an index");
     }
     return {&spec_.parameters.at(path.name), parameter->range, parameter->unit, text_, ""};
   }
@@ -150,7 +150,7 @@ class Search {
   Place<Number> ofTable(const Path& path, const SettingInfo& setting) const {
     const auto table = spec_.settings.tables.find(path.name);
     if (table == spec_.settings.tables.end()) {
-      return none(text_, "the scene gives no " + path.name);
+      return none(text_, "the scene does not give " + path.name);
     }
     if (path.indices.size() != 1 || path.column.empty()) {
       return none(text_, fmt::format("must be {}[row].{}", path.name,
@@ -166,7 +166,7 @@ class Search {
       for (const ColumnInfo& c : setting.columns) {
         known.push_back(c.name);
       }
-      return none(text_, objectionToName(path.column, known, "number of " + path.name));
+      return none(text_, objectionToName(path.column, known, "parameter of " + path.name));
     }
     auto& row = table->second[path.indices[0]];
     return {
@@ -176,16 +176,17 @@ class Search {
   Place<Number> ofMatrix(const Path& path) const {
     const auto matrix = spec_.settings.matrices.find(path.name);
     if (matrix == spec_.settings.matrices.end()) {
-      return none(text_, "the scene gives no " + path.name);
+      return none(text_, "the scene does not give " + path.name);
     }
     auto& m = matrix->second;
     if (path.indices.size() != 2 || !path.column.empty()) {
       return none(text_, fmt::format("must be {}[row][column]", path.name));
     }
     if (m.size() > kMostMatrixEntries) {
-      return none(text_, fmt::format("a matrix of up to {} entries can be changed while the twin "
-                                     "runs, this one has {}",
-                                     kMostMatrixEntries, m.size()));
+      return none(
+          text_,
+          fmt::format("matrices of at most {} entries can be changed while the twin runs, found {}",
+                      kMostMatrixEntries, m.size()));
     }
     const auto row = static_cast<Eigen::Index>(path.indices[0]);
     const auto column = static_cast<Eigen::Index>(path.indices[1]);

@@ -175,7 +175,7 @@ void readSetting(const MapReader& map, const SettingInfo& info, Settings& settin
                  Complaints& complaints) {
   if (info.kind == SettingKind::kChoice) {
     settings.choices[info.name] =
-        map.choice(info.name, info.choices, "one of its words", info.choices.front());
+        map.choice(info.name, info.choices, "one of its values", info.choices.front());
     return;
   }
   if (info.kind == SettingKind::kWordOrCount) {

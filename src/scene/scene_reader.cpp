@@ -40,16 +40,21 @@ void checkNames(const MapReader& map, const std::string& what, Complaints& compl
   std::set<std::string> channels;
   for (const std::string& name : map.names()) {
     if (!isLegalName(name)) {
-      complaints.add(map.key(name),
-                     fmt::format("a {} is named by up to {} letters, digits and _, a letter first",
-                                 what, kMaxNameLength));
+      complaints.add(
+          map.key(name),
+          fmt::format("the name of a {} must have at most {} letters, digits and _, a letter first",
+                      what, kMaxNameLength));
     } else if (what != "drive" && name == "drives") {
       complaints.add(
           map.key(name),
-          fmt::format("a {} cannot be named so: the drives have their topics there", what));
+          fmt::format(
+              "the name of a {} must not be this: it is reserved for the topics of the drives",
+              what));
     } else if (!channels.insert(capitals(name)).second) {
-      complaints.add(map.key(name),
-                     fmt::format("another {} has this name but for upper and lower case", what));
+      complaints.add(
+          map.key(name),
+          fmt::format("duplicate: another {} has this name (upper and lower case are the same)",
+                      what));
     }
   }
 }
@@ -185,7 +190,7 @@ void checkStart(const MapReader& system, const Dynamics& dynamics, const SystemS
   if (!dynamics.acceleration(q, v, at).allFinite()) {
     const std::string broken = brokenText(validity(dynamics, q, v, at), Margins::kShown);
     if (!broken.empty()) {
-      complaints.add(system.key("initial"), "cannot move from here: " + broken);
+      complaints.add(system.key("initial"), "the motion cannot start here: " + broken);
     }
   }
   double speed = std::fabs(spec.speed.value_or(0.0));
@@ -215,10 +220,10 @@ void checkStations(const Scene& scene, const MapReader& systems, Complaints& com
     names.erase(names.begin());
     for (const std::string& name : names) {
       if (!isLegalName(name) || !taken.insert(capitals(name)).second) {
-        complaints.add(systems.key(system.name) + ".parameters.stations",
-                       fmt::format("is published as {}, which must be up to {} characters that no "
-                                   "other system or station has",
-                                   name, kMaxNameLength));
+        complaints.add(
+            systems.key(system.name) + ".parameters.stations",
+            fmt::format("is published as {}, which must be unique and have at most {} characters",
+                        name, kMaxNameLength));
       }
     }
   }
@@ -239,9 +244,9 @@ void checkControllerNames(const Scene& scene, const MapReader& controllers,
   }
   for (const std::string& name : controllers.names()) {
     if (taken.count(capitals(name)) > 0) {
-      complaints.add(controllers.key(name),
-                     "a system or a station of one has this name: the parameters of both would be "
-                     "told under it");
+      complaints.add(
+          controllers.key(name),
+          "duplicate: a system or a station has this name, and parameters are published by name");
     }
   }
 }
@@ -334,12 +339,12 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& co
     }
   }
   if (!map.has("systems")) {
-    complaints.add("systems", "missing; a scene has at least one system");
+    complaints.add("systems", "missing; a scene needs at least one system");
     return scene;
   }
   const MapReader systems(map.at("systems"), "systems", {}, "", complaints);
   if (systems.usable() && systems.names().empty()) {
-    complaints.add("systems", "a scene has at least one system, found none");
+    complaints.add("systems", "a scene needs at least one system, found none");
   }
   checkNames(systems, "system", complaints);
   for (const std::string& name : systems.names()) {

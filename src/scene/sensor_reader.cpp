@@ -48,7 +48,8 @@ SensorChannelSpec readChannel(const YAML::Node& node, const std::string& key,
       if (!found->takes_direction) {
         complaints.add(
             map.key("direction"),
-            fmt::format("is for a rotor or a station of it, but {} has its own", quoted(measured)));
+            fmt::format("needs a rotor or a station of one; the direction of {} is fixed",
+                        quoted(measured)));
       }
     }
   }
@@ -62,7 +63,7 @@ SensorChannelSpec readChannel(const YAML::Node& node, const std::string& key,
   channel.run_out.angle = map.number("run_out_angle", Range::kAny, "rad", 0.0);
   if (channel.run_out.amplitude > 0.0 && channel.signal.kind != SignalSpec::Kind::kDisplacement &&
       found) {
-    complaints.add(map.key("run_out"), "is of a rotor's surface under a probe of displacement");
+    complaints.add(map.key("run_out"), "needs a displacement probe on a rotor");
   }
   return channel;
 }
@@ -83,7 +84,8 @@ void readKeyphasor(const MapReader& map, const Scene& scene, SensorSpec& sensor,
   sensor.keyphasor = settings;
   for (const char* key : {"rate", "channels"}) {
     if (map.has(key)) {
-      complaints.add(map.key(key), "a keyphasor's pulses come when they come: it has none");
+      complaints.add(map.key(key),
+                     "must not be given with a keyphasor, which sends one pulse per revolution");
     }
   }
 }
@@ -106,33 +108,34 @@ SensorSpec readSource(const YAML::Node& node, const std::string& key, const std:
   }
   for (const char* alone : {"mark", "jitter", "resolution"}) {
     if (map.has(alone)) {
-      complaints.add(map.key(alone), "is for a keyphasor");
+      complaints.add(map.key(alone), "needs a keyphasor");
     }
   }
   sensor.rate = map.numberBetween("rate", 1.0e-3, kMaxSampleRate, "Hz", std::nullopt);
   if (!map.has("channels")) {
-    complaints.add(map.key("channels"), "missing; sensors have at least one channel");
+    complaints.add(map.key("channels"), "missing; sensors need at least one channel");
     return sensor;
   }
   const MapReader channels(map.at("channels"), map.key("channels"), {}, "", complaints);
   for (const std::string& channel : channels.names()) {
     if (!isLegalName(channel)) {
-      complaints.add(channels.key(channel),
-                     fmt::format("a channel is named by up to {} letters, digits and _, a letter "
-                                 "first",
-                                 kMaxNameLength));
+      complaints.add(
+          channels.key(channel),
+          fmt::format("the name of a channel must have at most {} letters, digits and _, a letter "
+                      "first",
+                      kMaxNameLength));
     }
     sensor.channels.push_back(
         readChannel(channels.at(channel), channels.key(channel), channel, signals, complaints));
   }
   if (channels.usable() && sensor.channels.empty()) {
-    complaints.add(map.key("channels"), "sensors have at least one channel, found none");
+    complaints.add(map.key("channels"), "sensors need at least one channel, found none");
   }
   const double samples = sensor.rate * sensor.block * static_cast<double>(sensor.channels.size());
   if (samples > kMostSamples) {
-    complaints.add(
-        map.key("block"),
-        fmt::format("must give at most {:g} values a message, found {:g}", kMostSamples, samples));
+    complaints.add(map.key("block"),
+                   fmt::format("must give at most {:g} values per message, found {:g}",
+                               kMostSamples, samples));
   }
   return sensor;
 }
@@ -147,12 +150,14 @@ std::vector<SensorSpec> readSensors(const YAML::Node& node, const std::string& k
   std::set<std::string> channels;  // of LCM
   for (const std::string& name : map.names()) {
     if (!isLegalName(name)) {
-      complaints.add(map.key(name),
-                     fmt::format("sensors are named by up to {} letters, digits and _, a letter "
-                                 "first",
-                                 kMaxNameLength));
+      complaints.add(
+          map.key(name),
+          fmt::format("the name of sensors must have at most {} letters, digits and _, a letter "
+                      "first",
+                      kMaxNameLength));
     } else if (!channels.insert(capitals(name)).second) {
-      complaints.add(map.key(name), "other sensors have this name but for upper and lower case");
+      complaints.add(map.key(name),
+                     "duplicate: other sensors have this name (upper and lower case are the same)");
     }
     sensors.push_back(readSource(map.at(name), map.key(name), name, scene, signals, complaints));
   }

@@ -47,7 +47,7 @@ void readShaft(const MapReader& system, const ModelInfo& model, const Scene& sce
   }
   if (model.has_shaft && spec.drive && spec.speed) {
     complaints.add(system.key("parameters.speed"),
-                   "the drive sets the speed: give one or the other");
+                   "the drive sets the speed: give drive or speed, not both");
   } else if (model.has_shaft && !spec.drive && !spec.speed && !system.has("drive")) {
     complaints.add(system.key("parameters.speed"),
                    "missing; must be a finite number in rad/s, or name a drive");
@@ -64,8 +64,8 @@ void startSpin(const MapReader& initial, const Scene& scene, SystemSpec& spec,
   for (const char* name : {"spin", "spin_rate"}) {
     if (initial.has(name)) {
       complaints.add(initial.key(name),
-                     fmt::format("the shaft starts with the angle and the speed of its drive: give "
-                                 "them under drives.{}",
+                     fmt::format("must not be given: the shaft starts with the angle and speed of "
+                                 "its drive; give them under drives.{}",
                                  drive.name));
     }
   }

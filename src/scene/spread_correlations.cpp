@@ -28,15 +28,15 @@ std::optional<Eigen::Index> placeOf(const YAML::Node& path, const std::string& k
   const auto found = std::find(known.begin(), known.end(), name);
   if (found == known.end()) {
     const std::string near = nearestName(name, known);
-    complaints.add(key, fmt::format("must be numbers that have a spread, found {}{}", shown(path),
+    complaints.add(key, fmt::format("must be parameters with a spread, found {}{}", shown(path),
                                     near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
     return std::nullopt;
   }
   if (!ensemble.spread[static_cast<std::size_t>(found - known.begin())].normal) {
-    complaints.add(key,
-                   fmt::format("{} is spread evenly: must be numbers that are spread normally, "
-                               "with a standard_deviation",
-                               quoted(name)));
+    complaints.add(
+        key,
+        fmt::format("correlations need normal distributions (standard_deviation); {} is uniform",
+                    quoted(name)));
     return std::nullopt;
   }
   return found - known.begin();
@@ -49,7 +49,7 @@ void readPair(const YAML::Node& entry, const std::string& key, const EnsembleSpe
                            ? parseNumber(entry[2].Scalar()).value_or(kNone)
                            : kNone;
   if (std::fabs(value) > 1.0) {
-    complaints.add(key, "must be [one number, another, their correlation from -1 to 1]");
+    complaints.add(key, "must be [parameter, other parameter, correlation from -1 to 1]");
     return;
   }
   const auto a = placeOf(entry[0], key, ensemble, complaints);
@@ -58,8 +58,9 @@ void readPair(const YAML::Node& entry, const std::string& key, const EnsembleSpe
     return;
   }
   if (*a == *b || !std::isnan(matrix(*a, *b))) {
-    complaints.add(key, fmt::format("the correlation of {} and {} {}", quoted(entry[0].Scalar()),
-                                    quoted(entry[1].Scalar()), *a == *b ? "is 1" : "stands twice"));
+    complaints.add(key,
+                   fmt::format("the correlation of {} and {} {}", quoted(entry[0].Scalar()),
+                               quoted(entry[1].Scalar()), *a == *b ? "is 1" : "is given twice"));
     return;
   }
   matrix(*a, *b) = matrix(*b, *a) = value;
@@ -85,9 +86,9 @@ Eigen::MatrixXd factorOf(const Eigen::MatrixXd& matrix) {
 void readCorrelations(const YAML::Node& node, const std::string& key, EnsembleSpec& ensemble,
                       Complaints& complaints) {
   if (!node.IsSequence()) {
-    complaints.add(key, fmt::format("must be a list of [one number, another, their correlation], "
-                                    "found {}",
-                                    shown(node)));
+    complaints.add(
+        key, fmt::format("must be a list of [parameter, other parameter, correlation], found {}",
+                         shown(node)));
     return;
   }
   const auto n = static_cast<Eigen::Index>(ensemble.spread.size());
@@ -103,9 +104,11 @@ void readCorrelations(const YAML::Node& node, const std::string& key, EnsembleSp
   matrix = matrix.array().isNaN().select(Eigen::MatrixXd::Identity(n, n), matrix);
   const double lowest = symmetricEigenvalues(matrix).minCoeff();
   if (lowest < -kRounding) {
-    complaints.add(key, fmt::format("no numbers go together like this: the matrix of correlations "
-                                    "must be positive semidefinite, found an eigenvalue of {:.3g}",
-                                    lowest));
+    complaints.add(
+        key,
+        fmt::format(
+            "the correlation matrix must be positive semidefinite, found an eigenvalue of {:.3g}",
+            lowest));
     return;
   }
   ensemble.factor = factorOf(matrix);

@@ -157,11 +157,12 @@ std::vector<SpeedBand> avoidedBands(const Scene& scene, const ControllerSpec& co
 
 std::string describe(const WeakPassage& passage) {
   return fmt::format(
-      "from {:.4g} to {:.4g} rad/s: at {:.4g} rad/s a steady whirl takes {}, and there are {:.4g} "
-      "N m",
-      passage.band.from, passage.band.to, passage.speed,
+      "from {:.4g} to {:.4g} rad/s: at {:.4g} rad/s ({:.0f} rpm) a steady whirl needs {}, but the "
+      "motor has "
+      "{:.4g} N m",
+      passage.band.from, passage.band.to, passage.speed, passage.speed * 30.0 / kPi,
       std::isfinite(passage.needed) ? fmt::format("{:.4g} N m", passage.needed)
-                                    : "more than any torque",
+                                    : "an unlimited torque",
       passage.given);
 }
 

@@ -36,12 +36,12 @@ class YamlBounds : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = sizes_.find(anchor);
     if (found == sizes_.end()) {
-      throw YAML::ParserException(mark, "an alias within what it names");
+      throw YAML::ParserException(mark, "an alias refers to a node that contains it");
     }
     aliased_ += found->second;
     if (aliased_ > kMaxAliased) {
       throw YAML::ParserException(
-          mark, fmt::format("aliases stand for more than {} entries", kMaxAliased));
+          mark, fmt::format("aliases expand to more than {} entries", kMaxAliased));
     }
     count_ += found->second;
   }
@@ -98,7 +98,7 @@ YAML::Node readYamlFile(const std::string& path, const std::string& what,
     throw refusal("not a file");
   }
   if (std::filesystem::file_size(path, error) > kMaxYamlSize) {
-    throw refusal(fmt::format("larger than 4 MiB: not {}", what));
+    throw refusal(fmt::format("larger than 4 MiB, the limit of {}", what));
   }
   std::ifstream file(path, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());

@@ -36,7 +36,7 @@ MeasuredOrbit::MeasuredOrbit(const MeasuredOrbitSettings& settings)
   const double a = settings.probes[0].direction, b = settings.probes[1].direction;
   const double sine = std::sin(b - a);
   if (!makeAnOrbit(a, b)) {
-    throw std::invalid_argument("two probes along one line do not make an orbit");
+    throw std::invalid_argument("the two probes of an orbit must not be parallel");
   }
   inverse_ = {
       {{std::sin(b) / sine, -std::sin(a) / sine}, {-std::cos(b) / sine, std::cos(a) / sine}}};

@@ -43,7 +43,7 @@ class DesignReader {
       }
       if (chosen.names().size() != 1) {
         if (node.size() != 1) {
-          complaints_.add("design", "must be one design");
+          complaints_.add("design", "must have exactly one design");
         }
         return design_;
       }
@@ -104,12 +104,12 @@ class DesignReader {
 
   void readListDesign(const YAML::Node& size) {
     if (size.IsDefined() && !size.IsNull()) {
-      complaints_.add("design.list", "takes no number: each number that varies has its list");
+      complaints_.add("design.list", "must have no number: each varied parameter has its list");
     }
     const std::size_t first = vary_.front().distribution.list.size();
     for (const Variation& v : vary_) {
       if (v.distribution.kind != Distribution::Kind::kList) {
-        complaints_.add("vary." + v.path, "must be a list where the design is one");
+        complaints_.add("vary." + v.path, "must be a list with the design list");
       } else if (v.distribution.list.size() != first && !v.distribution.list.empty()) {
         complaints_.add("vary." + v.path,
                         fmt::format("must have {} entries, as {} has, found {}", first,
@@ -132,25 +132,26 @@ class DesignReader {
       }
       asked = *number;
     } else if (!lists) {
-      complaints_.add("design",
-                      fmt::format("must be {{{}: LEVELS}}: there are numbers that have no "
-                                  "list of values",
-                                  kind));
+      complaints_.add(
+          "design",
+          fmt::format("must be {{{}: LEVELS}}, because a varied parameter has no list of values",
+                      kind));
       return;
     }
     double points = 1.0;  // one at a time: the scene as it is
     for (const Variation& v : vary_) {
       if (!grid && std::isnan(v.nominal)) {
-        complaints_.add("vary." + v.path,
-                        "differs from move to move: one at a time, name one move of the drive");
+        complaints_.add(
+            "vary." + v.path,
+            "differs from move to move: with one_at_a_time, name one move of the drive");
       }
       design_.levels.push_back(v.distribution.levels(static_cast<std::size_t>(asked)));
       const auto count = static_cast<double>(design_.levels.back());
       points = grid ? points * count : points + count;
     }
     if (!(points <= kMostPoints)) {
-      complaints_.add("design",
-                      fmt::format("has {:g} points, more than {:g}", points, kMostPoints));
+      complaints_.add("design", fmt::format("must have at most {1:g} points, found {0:g}", points,
+                                            kMostPoints));
       return;
     }
     design_.points = static_cast<std::uint64_t>(points);
@@ -174,7 +175,7 @@ class DesignReader {
     }
     if (levels % 2 != 0) {
       complaints_.add("design.morris.levels",
-                      fmt::format("must be even: a step is half of them, found {}", levels));
+                      fmt::format("must be even (a step is half of them), found {}", levels));
     }
     design_.levels.assign(1, static_cast<std::size_t>(levels));
     if (count) {
@@ -183,8 +184,9 @@ class DesignReader {
     }
     for (const Variation& v : vary_) {
       if (v.distribution.kind == Distribution::Kind::kList) {
-        complaints_.add("vary." + v.path,
-                        "has a list: Morris's steps are half of a range, such as uniform");
+        complaints_.add(
+            "vary." + v.path,
+            "must be a range such as uniform (a Morris step is half of it), found a list");
       }
     }
   }

@@ -110,7 +110,7 @@ class ExpressionParser {
   }
   void factor() {
     if (++depth_ > kDeepest) {
-      throw Refusal(fmt::format("is nested deeper than {} levels", kDeepest));
+      throw Refusal(fmt::format("must be nested at most {} levels deep", kDeepest));
     }
     if (taken('-')) {
       factor();

@@ -37,19 +37,20 @@ class MeasureReader {
   void readMeasures(const MapReader& map) {
     if (!map.has("measure")) {
       complaints_.add("measure",
-                      "missing; must name what is measured: {peak: "
+                      "missing; must name the measures: {peak: "
                       "max(SYSTEM.whirl.radius)}");
       return;
     }
     const MapReader measures(map.at("measure"), "measure", {}, "", complaints_);
     if (measures.usable() && measures.names().empty()) {
-      complaints_.add("measure", "must name something that is measured");
+      complaints_.add("measure", "must name a measure");
     }
     for (const std::string& name : measures.names()) {
       if (!isLegalName(name)) {
-        complaints_.add(measures.key(name),
-                        fmt::format("is named by up to {} letters, digits and _, a letter first",
-                                    kMaxNameLength));
+        complaints_.add(
+            measures.key(name),
+            fmt::format("the name must have at most {} letters, digits and _, a letter first",
+                        kMaxNameLength));
       }
       const std::string text = measures.text(name, "");
       if (text.empty()) {
@@ -65,7 +66,7 @@ class MeasureReader {
       }
     }
     if (!study_.duration && isTimed(study_) && map.has("run")) {
-      complaints_.add("run.duration", "missing; must be there for what is measured of a run, in s");
+      complaints_.add("run.duration", "missing; needed in s for measures of a run");
     }
   }
 
@@ -102,8 +103,8 @@ class MeasureReader {
     for (const ExpressionLeaf& leaf : expression.leaves()) {
       if (!leaf.reduction.empty()) {
         if (published.count(leaf.path) == 0) {
-          complaints_.add(key, fmt::format("a run publishes no {}{}", quoted(leaf.path),
-                                           nearIn(leaf.path, names)));
+          complaints_.add(key, fmt::format("must be published by a run, found {}{}",
+                                           quoted(leaf.path), nearIn(leaf.path, names)));
         }
         continue;
       }
@@ -113,9 +114,9 @@ class MeasureReader {
         continue;
       }
       if (published.count(leaf.path) > 0) {
-        complaints_.add(key, fmt::format("{} changes in a run: say which number of it is meant, "
-                                         "such as max({})",
-                                         leaf.path, leaf.path));
+        complaints_.add(
+            key, fmt::format("{} changes during a run: reduce it to one number, such as max({})",
+                             leaf.path, leaf.path));
         continue;
       }
       std::vector<std::string> known = analysedNames(scene_);
@@ -126,7 +127,7 @@ class MeasureReader {
         known.push_back(v.path);
       }
       complaints_.add(
-          key, fmt::format("unknown number {}{}", quoted(leaf.path), nearIn(leaf.path, known)));
+          key, fmt::format("unknown quantity {}{}", quoted(leaf.path), nearIn(leaf.path, known)));
     }
   }
 

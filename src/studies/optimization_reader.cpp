@@ -39,12 +39,13 @@ class OptimizationReader {
     found_.method = map_.choice("method", kMethods, "method", usualMethod());
     if (!study_.requirements.empty() && !knowsRequirements(found_.method)) {
       complaints_.add("optimize.method",
-                      fmt::format("{} knows no requirements: cobyla does, and isres over the whole "
+                      fmt::format("{} has no requirements: use cobyla, or isres over the whole "
                                   "range",
                                   found_.method));
     }
     if (found_.over.size() == 1 && found_.method == "bobyqa") {
-      complaints_.add("optimize.method", "bobyqa is for two numbers or more: cobyla is for one");
+      complaints_.add("optimize.method",
+                      "bobyqa needs at least two parameters; use cobyla for one");
     }
     found_.evaluations = static_cast<std::uint64_t>(
         map_.integer("evaluations", 1, kMostEvaluations, kUsualEvaluations));
@@ -82,7 +83,7 @@ class OptimizationReader {
     const YAML::Node list = map_.has("over") ? map_.at("over") : YAML::Node(paths);
     if (!list.IsSequence() || (list.size() == 0 && map_.has("over"))) {
       complaints_.add("optimize.over",
-                      fmt::format("must be a list of numbers that vary, found {}", shown(list)));
+                      fmt::format("must be a list of varied parameters, found {}", shown(list)));
       return;
     }
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -91,11 +92,10 @@ class OptimizationReader {
       const auto number = static_cast<std::size_t>(place - paths.begin());
       if (place == paths.end()) {
         complaints_.add(fmt::format("optimize.over[{}]", i),
-                        fmt::format("must be a number that varies, found {}{}", shown(list[i]),
+                        fmt::format("must be a varied parameter, found {}{}", shown(list[i]),
                                     hint(path, paths)));
       } else if (std::find(found_.over.begin(), found_.over.end(), number) != found_.over.end()) {
-        complaints_.add(fmt::format("optimize.over[{}]", i),
-                        fmt::format("stands there twice: {}", path));
+        complaints_.add(fmt::format("optimize.over[{}]", i), fmt::format("duplicate: {}", path));
       } else {
         found_.over.push_back(number);
       }
@@ -107,12 +107,11 @@ class OptimizationReader {
       const double high = v.distribution.largest();
       if (sought && !(std::isfinite(low) && std::isfinite(high) && low < high)) {
         complaints_.add("vary." + v.path,
-                        "must have two ends for an optimum between them: uniform, log_uniform, "
-                        "relative_half_width or a list");
+                        "must have bounds: uniform, log_uniform, relative_half_width or a list");
       } else if (!sought && std::isnan(v.nominal)) {
-        complaints_.add("vary." + v.path,
-                        "differs from move to move: name one move of the drive, or let optimize "
-                        "have it");
+        complaints_.add(
+            "vary." + v.path,
+            "differs from move to move: name one move of the drive, or list it under optimize");
       }
     }
   }
@@ -131,7 +130,7 @@ class OptimizationReader {
 
 void readOptimization(const MapReader& map, Study& study, Complaints& complaints) {
   if (map.has("design")) {
-    complaints.add("optimize", "stands in place of a design: a study has one of the two");
+    complaints.add("optimize", "must not be given with a design: a study has one of the two");
   }
   OptimizationReader(map.at("optimize"), study, complaints).read();
 }

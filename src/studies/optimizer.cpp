@@ -63,8 +63,8 @@ class Search {
         if (k == kMostRestarts) {
           found_.converged = false;
           found_.ended = fmt::format(
-              "better points were found beside each of the {} places where it ended: the optimum "
-              "lies along a ridge (`method: crs`)",
+              "better points were found near each of the {} end points: the optimum lies along a "
+              "ridge (`method: crs`)",
               kMostRestarts + 1);
           break;
         }
@@ -144,7 +144,7 @@ class Search {
       return seen_;
     }
     if (found_.evaluations >= asked_.evaluations) {
-      stopWith(fmt::format("its {} evaluations are used up", asked_.evaluations));
+      stopWith(fmt::format("the limit of {} evaluations was reached", asked_.evaluations));
     }
     const std::vector<double> values = valuesOf(parts);
     Seen seen{evaluated(values), 0.0};
@@ -197,11 +197,11 @@ class Search {
 
   void requireStart() const {
     if (!found_.at_start.failure.empty()) {
-      throw RunFailure("optimize: where it begins: " + found_.at_start.failure);
+      throw RunFailure("optimize: at the start point: " + found_.at_start.failure);
     }
     const double value = found_.at_start.measures[asked_.measure];
     if (!(asked_.maximize ? value > -kInfinity : value < kInfinity)) {
-      throw RunFailure(fmt::format("optimize: where it begins, {} is {}",
+      throw RunFailure(fmt::format("optimize: at the start point {} must be finite, found {}",
                                    study_.measures[asked_.measure].name, value));
     }
   }
@@ -219,7 +219,7 @@ class Search {
       found_.ended = fmt::format("steps are below {:g} of each range", asked_.tolerance);
     } catch (const nlopt::roundoff_limited&) {
       found_.converged = true;
-      found_.ended = "no step improves it any more";
+      found_.ended = "no step improves it further";
     }
   }
 

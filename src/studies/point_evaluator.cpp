@@ -100,7 +100,7 @@ void PointEvaluator::simulate(const Scene& scene, std::vector<std::vector<double
       }
       const auto found = published.find(asked[i].path);
       if (found == published.end()) {
-        throw Refusal(fmt::format("has no {} with these numbers", asked[i].path));
+        throw Refusal(fmt::format("has no {} with these parameters", asked[i].path));
       }
       followed.push_back(
           {found->second, Reduction(asked[i].reduction, asked[i].argument), &leaves[k][i]});

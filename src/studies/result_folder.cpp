@@ -114,14 +114,14 @@ ResultFolder::ResultFolder(const std::string& path, const Study& study, bool mix
   namespace fs = std::filesystem;
   std::error_code error;
   if (fs::exists(path_, error) && !fs::is_directory(path_, error)) {
-    throw RunFailure(fmt::format("{}: cannot be written: it is no folder", path_));
+    throw RunFailure(fmt::format("{}: cannot be written: not a folder", path_));
   }
   if (fs::exists(path_ + "/manifest.yaml", error)) {
     compare(mixed);
   } else {
     if (!isOurs(path_)) {
-      throw Refusal(
-          fmt::format("{}: has files that are no results of a study: name another folder", path_));
+      throw Refusal(fmt::format(
+          "{}: must be an empty folder or one with results of a study, found other files", path_));
     }
     steps_ = chooseSteps(study_);
     if (!make()) {
@@ -135,7 +135,7 @@ bool ResultFolder::make() {
   std::error_code error;
   std::filesystem::create_directories(path_ + "/blocks", error);
   if (error) {
-    throw RunFailure(fmt::format("{}: cannot be made: {}", path_, error.message()));
+    throw RunFailure(fmt::format("{}: cannot be created: {}", path_, error.message()));
   }
   write("study.yaml", study_.text);
   write("scene.yaml", study_.scene_text);
@@ -167,8 +167,8 @@ void ResultFolder::compare(bool mixed) {
     if (manifest["study"].as<std::string>() != fmt::format("{:016x}", study_.hash) ||
         manifest["block"].as<std::uint64_t>() != study_.block) {
       throw Refusal(
-          fmt::format("{}: has the results of another study, or of another text of this "
-                      "study or its scene: name another folder",
+          fmt::format("{}: has the results of another study, or of another version of this study "
+                      "or its scene: use another folder",
                       path_));
     }
     const Origin origin = presentOrigin();
@@ -185,8 +185,8 @@ void ResultFolder::compare(bool mixed) {
     compareOne("processor", origin.processor);
     if (!differences.empty() && !mixed) {
       throw Refusal(
-          fmt::format("{}: its results come from {}, and may differ in their last digits "
-                      "from those to come: name another folder, or say --mixed",
+          fmt::format("{}: its results come from {}, and may differ in their last digits from new "
+                      "ones: use another folder, or --mixed",
                       path_, differences));
     }
     for (const YAML::Node& entry : manifest["steps"]) {
@@ -194,7 +194,7 @@ void ResultFolder::compare(bool mixed) {
           {entry["integrator"].as<std::string>(), entry["substeps"].as<int>()});
     }
   } catch (const YAML::Exception&) {
-    throw Refusal(fmt::format("{}: is no manifest of a study", file));
+    throw Refusal(fmt::format("{}: must be the manifest of a study", file));
   }
 }
 
@@ -267,8 +267,8 @@ void ResultFolder::forEachRow(
   for (std::uint64_t block = 0; block < study_.blocks(); ++block) {
     const std::optional<std::string> text = rowsOf(block);
     const auto wrong = [&] {
-      return RunFailure(fmt::format("{}: is missing or damaged: remove it and run the study again",
-                                    fileOf(block)));
+      return RunFailure(
+          fmt::format("{}: missing or corrupt: remove it and run the study again", fileOf(block)));
     };
     if (!text) {
       throw wrong();

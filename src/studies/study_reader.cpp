@@ -69,10 +69,10 @@ class StudyReader {
       }
     }
     if (study_.block > 0 && study_.blocks() > kMostBlocks) {
-      complaints_.add("study.block", fmt::format("must be at least {} for {} points: a study has "
-                                                 "at most {} blocks, found {}",
-                                                 (study_.points() - 1) / kMostBlocks + 1,
-                                                 study_.points(), kMostBlocks, study_.block));
+      complaints_.add("study.block",
+                      fmt::format("must be at least {} for {} points (at most {} blocks), found {}",
+                                  (study_.points() - 1) / kMostBlocks + 1, study_.points(),
+                                  kMostBlocks, study_.block));
     }
     if (!complaints_.all().empty()) {
       throw Refusal(fmt::format("{}", fmt::join(complaints_.all(), "\ntwin: ")));
@@ -104,7 +104,7 @@ class StudyReader {
                        ? static_cast<std::uint64_t>(study.integer("block", 1, kMostInBlock, 1))
                        : 0;
     study_.stop_at_failure = study.choice("on_failure", {"record", "stop"},
-                                          "what a failed point does", "record") == "stop";
+                                          "the reaction to a failed point", "record") == "stop";
     const std::string scene = study.text("scene", "");
     if (scene.empty()) {
       if (!study.has("scene")) {
@@ -127,7 +127,7 @@ class StudyReader {
 
   void readRun(const MapReader& map) {
     if (!map.has("run")) {
-      complaints_.add("run", "missing; must be {duration: S} or analyze, or have both");
+      complaints_.add("run", "missing; must be {duration: S}, analyze or both");
       return;
     }
     if (map.at("run").IsScalar() && map.at("run").Scalar() == "analyze") {
@@ -141,7 +141,7 @@ class StudyReader {
     if (run.has("duration")) {
       study_.duration = run.numberBetween("duration", 0.0, kLongestDuration, "s", std::nullopt);
     } else if (!run.has("analyze")) {
-      complaints_.add("run", "must be {duration: S} or analyze, or have both");
+      complaints_.add("run", "must be {duration: S}, analyze or both");
     }
     if (run.has("analyze")) {
       readAnalyses(run.at("analyze"));

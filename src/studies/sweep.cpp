@@ -116,8 +116,8 @@ void sweep(const Study& study, const ResultFolder& folder, unsigned workers,
            const BlockDealer& dealer, std::atomic<bool>& stop, const SweepProgress& progress) {
   Workers(study, folder, dealer, stop).run(workers, progress);
   if (stop.load()) {
-    throw RunFailure(fmt::format(
-        "interrupted; what was finished is in {}: the same command goes on", folder.path()));
+    throw RunFailure(fmt::format("interrupted; finished points are in {}: the same command resumes",
+                                 folder.path()));
   }
 }
 

@@ -22,12 +22,12 @@ class VariationReader {
 
   std::vector<Variation> read(const MapReader& map) {
     if (!map.has("vary")) {
-      complaints_.add("vary", "missing; must name the numbers of the scene that vary");
+      complaints_.add("vary", "missing; must name the varied parameters of the scene");
       return {};
     }
     const MapReader vary(map.at("vary"), "vary", {}, "", complaints_);
     if (vary.usable() && vary.names().empty()) {
-      complaints_.add("vary", "must name a number of the scene that varies");
+      complaints_.add("vary", "must name a varied parameter of the scene");
     }
     std::vector<Variation> all;
     std::map<std::string, std::string> taken;
@@ -45,7 +45,7 @@ class VariationReader {
       for (const SceneNumber& place : variation.places) {
         const auto [other, first] = taken.emplace(keyOf(place), path);
         if (!first) {
-          complaints_.add(vary.key(path), fmt::format("varies {}, which {} does already",
+          complaints_.add(vary.key(path), fmt::format("duplicate: {} is already varied by {}",
                                                       keyOf(place), other->second));
         }
       }
@@ -83,14 +83,14 @@ class VariationReader {
       }
     }
     if (hasBelow(path)) {
-      return "is not one number: name one below it, such as " + firstBelow(path);
+      return "is not a single number: name one of its parts, such as " + firstBelow(path);
     }
     std::vector<std::string> names;
     for (const auto& [name, number] : numbers_) {
       names.push_back(name);
     }
     const std::string near = nearestName(path, names);
-    return fmt::format("is no number of the scene{}",
+    return fmt::format("must be a number of the scene{}",
                        near.empty() ? "; a path is SYSTEM.PARAMETER, SYSTEM.initial.COORDINATE, "
                                       "DRIVE.speed or a full key of the scene's file"
                                     : fmt::format("; did you mean '{}'?", near));
@@ -182,7 +182,7 @@ class VariationReader {
   void checkWidth(const std::string& key, double middle, double width) {
     if (!std::isfinite(10.0 * width) || !std::isfinite(middle + 10.0 * width)) {
       complaints_.add(key,
-                      fmt::format("is beyond the range of numbers: {} about {}", width, middle));
+                      fmt::format("exceeds the range of a double: {} about {}", width, middle));
     }
   }
 
@@ -196,7 +196,7 @@ class VariationReader {
     if (!(d.low < d.high) || !std::isfinite(d.high - d.low)) {
       complaints_.add(key, fmt::format("must be [lowest, highest], found [{}, {}]", d.low, d.high));
     } else if (d.kind == Distribution::Kind::kLogUniform && !(d.low > 0.0)) {
-      complaints_.add(key, fmt::format("must be > 0 to vary by its logarithm, found {}", d.low));
+      complaints_.add(key, fmt::format("must be > 0 with a logarithmic range, found {}", d.low));
     }
   }
 
@@ -205,11 +205,11 @@ class VariationReader {
     const double width = part * std::fabs(variation.nominal);
     Distribution& d = variation.distribution;
     if (variation.nominal == 0.0) {
-      complaints_.add(map.key(kind), "the scene gives 0, of which any part is 0: give the width");
+      complaints_.add(map.key(kind),
+                      "must not be relative to 0, the value of the scene: give an absolute width");
     }
     if (variation.places.size() > 1) {
-      complaints_.add(map.key(kind),
-                      "is one number for all moves: give the values, or name one move");
+      complaints_.add(map.key(kind), "must be a list of values for all moves, or name one move");
     }
     if (std::isfinite(part) && !std::isnan(variation.nominal)) {
       checkWidth(map.key(kind), variation.nominal, width);

@@ -22,8 +22,8 @@ std::vector<std::string> AccuracyWatch::look(const Observer& observer) {
       const double now = observer.instant().time;
       lost_[i] = now;
       warnings.push_back(fmt::format(
-          "{}: warning: from t = {:.9g} s its steps are less accurate than it asks: error about "
-          "{:.1g} over its horizon, more than its tolerance {:g} (ACCURACY_LOST)",
+          "{}: warning: from t = {:.9g} s the steps are less accurate than required: error about "
+          "{:.1g} over the horizon, above the tolerance {:g} (ACCURACY_LOST)",
           spec.name, now, estimate, spec.tolerance));
     }
   }

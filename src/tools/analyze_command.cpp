@@ -23,36 +23,41 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kAnalyzeDescription =
-    "Judges each system of a scene at its start, or where --speed and --at say: energies, "
-    "equilibria, natural frequencies and\n"
-    "damping, stability by Routh's test and its margins, critical speeds and separation margins.";
+    "Analyses each system of a scene at its start, or as --speed and --at specify: energies,\n"
+    "equilibria, natural frequencies and damping, stability by Routh's test and its margins,\n"
+    "critical speeds and separation margins.";
 
 constexpr const char* kAnalyzeFooter =
     "Linearized about the operating point at the initial shaft speed: the stable equilibrium that\n"
-    "the initial position creeps to, strongly damped (the nearest where it does not move), or the\n"
-    "initial state if there is none. Of a nonlinear rotor it is the unstable equilibrium where no\n"
-    "other exists, as above its threshold in oil films; where none is found the verdict is\n"
-    "uncertain. Critical speeds are the peaks of the unbalance response;\n"
-    "separation margins are those of API 617, in percent of the speed. Of a reduced rotor none is\n"
-    "told beyond the speed that it holds to.\n"
+    "the initial position approaches under strong damping (the nearest one where it does not "
+    "move),\n"
+    "or the initial state if there is none. For a nonlinear rotor it is the unstable equilibrium\n"
+    "where no other exists, as above the threshold speed of oil films; where none is found the\n"
+    "verdict is uncertain. Critical speeds are the peaks of the unbalance response; separation\n"
+    "margins are those of API 617, in percent of the speed. A reduced-order rotor has none above "
+    "the\n"
+    "speed up to which the reduction is valid.\n"
     "The cross-coupling margin (API 617, level I) is the stiffness kxy = -kyx at the published\n"
-    "station at which a whirl stops to decay. Steady speeds: the motor's torque\n"
-    "carries drag and whirl there; stable where the load rises faster with the speed.\n"
-    "Each number of a stable system is changed alone, in strides, to where stability is lost: by\n"
-    "divergence (a real root passes zero) or by whirl or flutter (a pair passes the axis). An "
-    "isle\n"
-    "of instability narrower than a stride may be jumped over. In systems of more than eight\n"
-    "coordinates, and in shafts of many elements, that takes minutes: with --parameters.\n"
+    "station at which a whirl ceases to decay. Steady speeds: the motor's torque balances drag "
+    "and\n"
+    "whirl there; stable where the load rises faster with the speed than the torque.\n"
+    "Each parameter of a stable system is changed alone, in finite increments, to its instability\n"
+    "point: divergence (a real root crosses zero) or whirl or flutter (a pair crosses the "
+    "imaginary\n"
+    "axis). A range of instability narrower than an increment may be missed. In systems of more "
+    "than\n"
+    "eight coordinates, and in shafts of many elements, this takes minutes: only with "
+    "--parameters.\n"
     "\n"
-    "Of more than 100 coordinates the lowest modes are told. That none of the others grows is "
-    "proved\n"
-    "from the definiteness of the matrices, or the verdict is uncertain: --modes all looks at "
-    "each.\n"
-    "Critical speeds are then those up to the highest natural frequency that is told.\n"
+    "With more than 100 coordinates only the lowest modes are printed. That none of the others "
+    "grows\n"
+    "is proved by the definiteness of the matrices, or the verdict is uncertain: --modes all "
+    "computes\n"
+    "each mode. Critical speeds are then those up to the highest natural frequency printed.\n"
     "\n"
-    "--speed holds every shaft at a speed; --at takes the motion after so many seconds, as "
-    "`twin\n"
-    "simulate` has it, with the shafts held at their speeds of then.\n"
+    "--speed sets the speed of every shaft; --at takes the motion after the given number of "
+    "seconds,\n"
+    "as `twin simulate` computes it, with the shafts at their speeds of that time.\n"
     "\n"
     "Examples:\n"
     "  twin analyze demo\n"
@@ -81,13 +86,15 @@ Scene withSpeed(Scene scene, const std::vector<std::size_t>& shown, double speed
   for (const std::size_t i : shown) {
     const SystemSpec& system = scene.systems[i];
     if (system.drive && scene.drives[scene.driveOf(system)].motor) {
-      throw Refusal(fmt::format(
-          "--speed: {} is on a motor, which makes its speed; --at tells of a moment", system.name));
+      throw Refusal(
+          fmt::format("--speed: the speed of {} is not prescribed but follows from its motor; use "
+                      "--at for an instant",
+                      system.name));
     }
     any = any || system.drive || system.speed;
   }
   if (!any) {
-    throw Refusal("--speed: there is no system on a shaft");
+    throw Refusal("--speed: needs a system with a shaft, found none");
   }
   for (DriveSpec& drive : scene.drives) {
     if (!drive.motor) {
@@ -113,7 +120,7 @@ Scene sceneAt(const AnalyzeRequest& request) {
   Simulation simulation(plan);
   simulation.run(nullptr, true);
   if (!simulation.sound()) {
-    throw RunFailure("--at: there is no motion left of what has stopped");
+    throw RunFailure("--at: a system stopped before that time");
   }
   const Json systems = simulation.json()["systems"];
   const BuiltScene start = build(plan.scene);
@@ -150,8 +157,9 @@ std::size_t modesAskedFor(const AnalyzeRequest& request) {
                                   [](char c) { return c >= '0' && c <= '9'; });
   const std::size_t modes = number ? std::stoul(request.modes) : 0;
   if (modes == 0) {
-    throw Refusal(fmt::format(
-        "--modes: expected how many of the lowest, 1 or more, or all, found {}", request.modes));
+    throw Refusal(
+        fmt::format("--modes: expected the number of lowest modes, 1 or more, or all, found {}",
+                    request.modes));
   }
   return modes;
 }
@@ -210,18 +218,18 @@ void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
   const auto request = std::make_shared<AnalyzeRequest>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "show this system only").type("NAME");
-  command.option("--speed", request->speed, "rad/s, of the shafts; default: at the start")
-      .type("W");
-  command.option("--at", request->at, "s, simulated, from the start to there; default: 0")
-      .type("S");
   command
-      .option("--modes", request->modes,
-              fmt::format("how many of the lowest, or all, of more than {} coordinates; "
-                          "default: {}",
-                          kMostCompleteCoordinates, kLowestModes))
+      .option("--speed", request->speed, "speed of the shafts [rad/s]; default: that at the start")
+      .type("W");
+  command.option("--at", request->at, "simulated time since the start [s]; default: 0").type("S");
+  command
+      .option(
+          "--modes", request->modes,
+          fmt::format("number of lowest modes, or all, with more than {} coordinates; default: {}",
+                      kMostCompleteCoordinates, kLowestModes))
       .type("N");
   command.flag("--parameters", request->all_parameters,
-               "look for the numbers that stability is lost by where that takes minutes, too");
+               "compute the instability points of the parameters also where that takes minutes");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);

@@ -18,11 +18,12 @@ void addSceneOption(const ProgramCommand& command, std::string& scene) {
 }
 
 void addInsistOption(const ProgramCommand& command, bool& insist) {
-  command.flag("--insist", insist, "even if it takes more than a day or more memory than is free");
+  command.flag("--insist", insist,
+               "run even if it takes more than a day or more memory than is free");
 }
 
 void addCsvOption(const ProgramCommand& command, std::optional<std::string>& csv) {
-  command.option("--csv", csv, "write the tables, every row of them: FILE.csv, FILE_NAME.csv")
+  command.option("--csv", csv, "write the complete tables: FILE.csv, FILE_NAME.csv")
       .type("FILE.csv");
 }
 
@@ -46,7 +47,7 @@ std::int64_t parseNanoseconds(const std::string& option, const std::string& text
   const Rational units = nanoseconds / unit + Rational(1, 2);  // nearest: the floor of this
   const auto whole = static_cast<std::int64_t>(numerator(units) / denominator(units)) * unit;
   if (nanoseconds != whole) {
-    complain(fmt::format("twin: {}: {} s is not a whole number of {}: {} is taken\n", option, text,
+    complain(fmt::format("twin: {}: {} s is not a whole number of {}: {} is used\n", option, text,
                          unit == 1 ? "nanoseconds" : "steps of " + inSeconds(unit),
                          inSeconds(whole)));
   }

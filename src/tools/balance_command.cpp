@@ -26,31 +26,29 @@ constexpr const char* kBalanceDescription =
 
 constexpr const char* kBalanceFooter =
     "FILE is YAML or JSON:\n"
-    "  probes:  [left, right]                      what is read, each at each speed\n"
-    "  planes:  [disc_1, disc_2]                   where masses can be set\n"
+    "  probes:  [left, right]                      what is measured, each at each speed\n"
+    "  planes:  [disc_1, disc_2]                   where masses can be added\n"
     "  initial: [[12e-6, 40], [9e-6, 130]]         amplitude (any unit) and phase lag (deg) of "
     "each\n"
     "  trials:                                     runs with one trial mass each\n"
     "    - {plane: disc_1, mass_radius: 1e-4, angle: 0, readings: [[8e-6, 55], [7e-6, 120]]}\n"
     "    - {plane: disc_2, mass_radius: 1e-4, angle: 90, readings: [[10e-6, 20], [5e-6, 150]]}\n"
-    "  weights: [1, 1]                             of the probes; may be left out\n"
-    "  deviation: 0.2e-6                           standard deviation of either component of a "
-    "reading;\n"
-    "                                              left out: as the residual shows, where there "
-    "are more\n"
-    "                                              probes than planes\n"
-    "mass_radius in kg m; angles in degrees from the shaft's mark in the direction of rotation.\n"
-    "The correction is to be added, with the trial masses taken out.\n"
+    "  weights: [1, 1]                             of the probes; optional\n"
+    "  deviation: 0.2e-6                           standard deviation of either component of a\n"
+    "                                              reading; default: estimated from the residual,\n"
+    "                                              where there are more probes than planes\n"
+    "mass_radius in kg m; angles in degrees from the shaft's phase mark in the direction of "
+    "rotation.\n"
+    "The correction masses are to be added after the trial masses are removed.\n"
     "\n"
-    "With --measured FILE is a scene, and LOG an LCM log or a rosbag with what its `sensors` "
-    "measured,\n"
-    "as `twin simulate --measure` writes it: displacement probes and a keyphasor, over a run-up or "
-    "at\n"
-    "several steady speeds. All sources with probes at the rotor are used. Slow roll is part of "
-    "the answer (run-out). Angles count from the "
-    "shaft's "
-    "mark.\n"
-    "What the log does not tell is said, and null in the JSON.\n"
+    "With --measured, FILE is a scene, and LOG an LCM log or a rosbag with the measurements of "
+    "its\n"
+    "`sensors`, as `twin simulate --measure` writes it: displacement probes and a keyphasor, over "
+    "a\n"
+    "run-up or at several steady speeds. All sources with probes at the rotor are used. The "
+    "slow-roll\n"
+    "run-out is estimated with the unbalance. Angles count from the shaft's phase mark.\n"
+    "Unbalances that the log does not identify are reported, and null in the JSON.\n"
     "\n"
     "Example:\n"
     "  twin balance balancing --measured run.lcmlog --planes left_disc right_disc";
@@ -126,7 +124,7 @@ CsvTables balanceTables(const BalancingRuns& runs, const BalanceCorrection& c) {
 std::string balanceText(const BalancingRuns& runs, const BalanceCorrection& c,
                         const Spread& spread) {
   std::string out = fmt::format("add                mass x radius, kg m   angle, deg{}\n",
-                                spread ? "   (half width of the 95 % interval: kg m, deg)" : "");
+                                spread ? "   (half-width of the 95 % interval: kg m, deg)" : "");
   for (std::size_t i = 0; i < runs.planes.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const std::complex<double> mass = c.mass_radius[k];
@@ -138,7 +136,7 @@ std::string balanceText(const BalancingRuns& runs, const BalanceCorrection& c,
     out += "\n";
   }
   if (!spread) {
-    out += "  how well they are known: give `deviation`, or more probes than planes\n";
+    out += "  no confidence intervals: give `deviation`, or more probes than planes\n";
   }
   out += "vibration                      before        after\n";
   for (std::size_t i = 0; i < runs.probes.size(); ++i) {
@@ -146,9 +144,10 @@ std::string balanceText(const BalancingRuns& runs, const BalanceCorrection& c,
     out += fmt::format("  {:<18} {:>16.6g} {:>12.6g}\n", printable(runs.probes[i]),
                        std::abs(runs.initial[k]), std::abs(c.residual[k]));
   }
-  return out + (std::isfinite(c.condition)
-                    ? fmt::format("planes: condition number {:.4g}\n", c.condition)
-                    : "planes: some do the same, or nothing: the least masses that do it\n");
+  return out +
+         (std::isfinite(c.condition)
+              ? fmt::format("planes: condition number {:.4g}\n", c.condition)
+              : "planes: linearly dependent or without effect: the smallest masses are given\n");
 }
 
 int balanceRuns(const BalanceRequest& request) {
@@ -171,14 +170,14 @@ int balanceRuns(const BalanceRequest& request) {
 
 int balanceMeasured(const BalanceRequest& request) {
   if (!(request.unbalance.from >= 0.0 && request.unbalance.from < request.unbalance.to)) {
-    throw Refusal(fmt::format("--from, --to: expected --from below --to, found {:g} and {:g} rad/s",
+    throw Refusal(fmt::format("--from, --to: --from must be < --to, found {:g} and {:g} rad/s",
                               request.unbalance.from, request.unbalance.to));
   }
   requireLcmPrefix(request.lcm_prefix);
   const BuiltScene scene = build(readSceneFile(scenePath(request.file)));
   const auto systems = rotorSystems(scene, request.system);
   if (systems.size() > 1) {
-    throw Refusal("--system: expected which of the rotors the log is of");
+    throw Refusal("--system: missing; must name the rotor that the log belongs to");
   }
   const RotorRecord record(scene, systems.front(), *request.measured, request.lcm_prefix);
   const UnbalanceReport report = unbalanceReport(systems.front(), record, request.unbalance);
@@ -198,25 +197,27 @@ int balanceMeasured(const BalanceRequest& request) {
 void addBalanceCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("balance", kBalanceDescription);
   const auto request = std::make_shared<BalanceRequest>();
-  command.option("FILE", request->file, "the runs; with --measured the scene").required().type("");
+  command.option("FILE", request->file, "the trial runs; with --measured the scene")
+      .required()
+      .type("");
   const Option measured =
-      command.option("--measured", request->measured, "a log of the running machine").type("LOG");
+      command.option("--measured", request->measured, "log of the running machine").type("LOG");
   const auto with_log = [measured](const Option& option) { return option.needs(measured); };
   with_log(command.option("--system", request->system, "this rotor").type("NAME"));
-  with_log(command
-               .option("--planes", request->unbalance.planes,
-                       "stations where masses can be set; default: where the scene's "
-                       "unbalances are")
-               .type("STATION"));
-  with_log(command.option("--from", request->unbalance.from, "rad/s; what was slower is left out")
+  with_log(
+      command
+          .option("--planes", request->unbalance.planes,
+                  "stations where masses can be added; default: those of the scene's unbalances")
+          .type("STATION"));
+  with_log(command.option("--from", request->unbalance.from, "rad/s; slower intervals are left out")
                .type("W"));
-  with_log(command.option("--to", request->unbalance.to, "rad/s; what was faster is left out")
+  with_log(command.option("--to", request->unbalance.to, "rad/s; faster intervals are left out")
                .type("W"));
   with_log(command.flag("--known-run-out", request->unbalance.run_out_known,
-                        "the run-out of the scene's sensors holds, none where they say none"));
+                        "use the run-out of the scene's sensors, 0 where they have none"));
   with_log(command
                .option("--lcm-prefix", request->lcm_prefix,
-                       "what the channels of the log begin with; default: TWIN_")
+                       "prefix of the log's channels; default: TWIN_")
                .type("PREFIX"));
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");

@@ -70,8 +70,8 @@ class RunsReader {
       if (one.empty()) {
         complaints_.add(key, fmt::format("must be a name, found {}", shown(nodes[i])));
       } else if (std::find(all.begin(), all.end(), one) != all.end()) {
-        complaints_.add(key, fmt::format("must be a name of its own; {} stands twice",
-                                         whirl_twin::quoted(one)));
+        complaints_.add(key,
+                        fmt::format("must be unique, found {} twice", whirl_twin::quoted(one)));
       }
       all.push_back(one);
     }
@@ -97,7 +97,7 @@ class RunsReader {
       return all;  // which has been said
     }
     const auto nodes =
-        list(map, name, fmt::format("a list of {}, one a probe", probes), probes, probes);
+        list(map, name, fmt::format("a list of {}, one per probe", probes), probes, probes);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const std::string key = fmt::format("{}[{}]", map.key(name), i);
       if (!nodes[i].IsSequence() || nodes[i].size() != 2) {
@@ -122,13 +122,13 @@ class RunsReader {
     }
     const std::size_t before = complaints_.all().size();
     const auto nodes =
-        list(map, "weights", fmt::format("a list of {}, one a probe", probes), probes, probes);
+        list(map, "weights", fmt::format("a list of {}, one per probe", probes), probes, probes);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       runs_.weights[static_cast<Eigen::Index>(i)] =
           number(nodes[i], fmt::format("{}[{}]", map.key("weights"), i), 0.0, kLargest, "a weight");
     }
     if (complaints_.all().size() == before && runs_.weights.isZero(0.0)) {
-      complaints_.add(map.key("weights"), "must have one above 0");
+      complaints_.add(map.key("weights"), "must have one > 0");
     }
   }
 

@@ -22,10 +22,10 @@ constexpr const char* kCampbellDescription =
     "damping, and the critical speeds where they meet it.";
 
 constexpr const char* kCampbellFooter =
-    "Modes are followed by their shapes through every crossing. Directions: forward, backward,\n"
-    "mixed where places along the shaft disagree, straight where the whirl is in a plane.\n"
-    "In the picture: dashed where a mode grows, rings at critical speeds, bands where API 617\n"
-    "wants no running speed.\n"
+    "Modes are tracked by their shapes through every crossing. Directions: forward, backward,\n"
+    "mixed where stations along the shaft disagree, straight where the whirl is in a plane.\n"
+    "In the picture: dashed where a mode is unstable, rings at critical speeds, bands where API "
+    "617\nallows no running speed.\n"
     "\n"
     "Examples:\n"
     "  twin campbell demo --to 120 --plot campbell.svg\n"
@@ -102,14 +102,13 @@ void addCampbellCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("campbell", kCampbellDescription);
   const auto request = std::make_shared<CampbellCommandRequest>();
   addSceneOption(command, request->scene);
-  command.option("--system", request->system, "this rotor only").type("NAME");
+  command.option("--system", request->system, "only this rotor").type("NAME");
   command.option("--from", request->range.from, "rad/s; default: 0").type("W");
   command.option("--to", request->range.to, "rad/s; default: 1.2 times the drive's highest speed")
       .type("W");
-  command.option("--points", request->range.points, "speeds; default: 200").type("N");
+  command.option("--points", request->range.points, "number of speeds; default: 200").type("N");
   command.option("--harmonic", request->harmonics, "multiples of the speed; default: 1").type("H");
-  command.option("--modes", request->modes, "how many are followed, the lowest; default: 12")
-      .type("N");
+  command.option("--modes", request->modes, "number of lowest modes; default: 12").type("N");
   command.option("--plot", request->plot, "the diagram, FILE.svg or FILE.png").type("FILE");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");

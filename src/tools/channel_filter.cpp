@@ -9,7 +9,7 @@ namespace whirl_twin {
 void addChannelOption(const ProgramCommand& command, ChannelFilter& filter) {
   command
       .option("--channel", filter,
-              "only channels (of a bag: topics) like this, as '*_WHIRL'; may be said again")
+              "only channels (of a bag: topics) that match, such as '*_WHIRL'; may be repeated")
       .type("PATTERN")
       .oneByOne();
 }

@@ -13,12 +13,12 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kCheckDescription =
-    "Checks a scene file and tells what will be modelled: systems, states, integrators, messages,\n"
-    "and what a step costs on this machine.";
+    "Checks a scene file and prints what will be modelled: systems, states, integrators, "
+    "messages,\nand the cost of a step on this machine.";
 
 constexpr const char* kCheckFooter =
-    "A scene with errors is refused with all of them at once, one a line on standard error:\n"
-    "the file, the key, what was expected with its unit, and what was found. Exit status 2.\n"
+    "All errors of a scene are printed at once, one per line on standard error: the file, the "
+    "key,\nwhat is required with its unit, and what was found. Exit status 2.\n"
     "\n"
     "Examples:\n"
     "  twin check demo\n"
@@ -51,9 +51,8 @@ void addCheckCommand(const ProgramCommand& twin, int& status) {
   const auto request = std::make_shared<CheckRequest>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "show this system only").type("NAME");
-  command.flag(
-      "--json", request->json,
-      "print one JSON object; `accuracy` of each system: what is kept, until when it is known");
+  command.flag("--json", request->json,
+               "print one JSON object; `accuracy` of each system: the error bound and its horizon");
   addInsistOption(command, request->insist);
   command.footer(kCheckFooter);
   command.callback([request, &status] { status = check(*request); });

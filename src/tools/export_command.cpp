@@ -26,15 +26,14 @@ namespace {
 constexpr const char* kExportDescription =
     "Writes an LCM log or a rosbag as an MCAP file, for PlotJuggler, Foxglove and Lichtblick; as "
     "a\n"
-    "rosbag; or as tables of comma-separated values, a file a topic. No ROS is needed.";
+    "rosbag; or as tables of comma-separated values, one file per topic. No ROS is needed.";
 
 constexpr const char* kExportFooter =
     "Messages of an LCM log become the ROS messages that a bridge publishes, on /twin/rotor/whirl\n"
     "for TWIN_ROTOR_WHIRL, with the time of the event: received or, in a log of twin simulate,\n"
-    "simulated. Those of a bag stay as they are, to the byte. What is damaged is left out, "
-    "counted\n"
-    "and named with its byte; channels that are no twin's are left out, too. Exit status: 0 done,\n"
-    "1 it cannot be written, 2 a file that cannot be read or has nothing to export.\n"
+    "simulated. Those of a bag are copied unchanged. Corrupt messages are left out, counted "
+    "and\nlisted with their byte offset; channels of other programs are left out. Exit status: 0 "
+    "done,\n1 it cannot be written, 2 a file that cannot be read or has nothing to export.\n"
     "\n"
     "Examples:\n"
     "  twin export night.lcmlog --mcap night.mcap\n"
@@ -64,7 +63,7 @@ void requireMessages(const ExportRequest& request, const LogExport& log) {
   }
   if (!log.foreign.empty()) {
     why += fmt::format(
-        "; there is {}, which is no channel of a twin whose channels begin with {} "
+        "; channel {} does not belong to a twin whose channels begin with {} "
         "(--lcm-prefix)",
         log.foreign.begin()->first, request.lcm_prefix);
   }
@@ -93,12 +92,12 @@ std::string exportText(const ExportRequest& request, const LogExport& log,
     out += fmt::format("{} not selected\n", log.not_selected);
   }
   if (!log.foreign.empty()) {
-    out += fmt::format("{} left out on {} channel{} that no twin has, such as {}\n", foreignIn(log),
-                       log.foreign.size(), log.foreign.size() == 1 ? "" : "s",
+    out += fmt::format("{} left out on {} channel{} of other programs, such as {}\n",
+                       foreignIn(log), log.foreign.size(), log.foreign.size() == 1 ? "" : "s",
                        log.foreign.begin()->first);
   }
   if (log.rejected + log.damaged > 0) {
-    out += fmt::format("left out: {} corrupt message{}, {} damaged place{}\n", log.rejected,
+    out += fmt::format("left out: {} corrupt message{}, {} corrupt place{}\n", log.rejected,
                        log.rejected == 1 ? "" : "s", log.damaged, log.damaged == 1 ? "" : "s");
   }
   for (const LogDefect& defect : log.defects) {
@@ -201,7 +200,7 @@ int exportLogFile(const ExportRequest& request) {
       requireNew(option, output, request.force);
       std::error_code none;
       if (std::filesystem::equivalent(output, request.file, none)) {
-        throw Refusal(fmt::format("{}: must be another file than {}", option, request.file));
+        throw Refusal(fmt::format("{}: must differ from {}", option, request.file));
       }
     }
   }
@@ -214,8 +213,7 @@ int exportLogFile(const ExportRequest& request) {
   }
   if (request.compress && !McapWriter::has(McapWriter::Compression::kLz4)) {
     throw Refusal(
-        "--compress: this twin was built without lz4 (liblz4-dev): `scripts/setup`, "
-        "then build again");
+        "--compress: built without lz4 (liblz4-dev): run `scripts/setup`, then build again");
   }
   const LogExport log = Export(request).run();
   if (request.json) {
@@ -234,16 +232,16 @@ void addExportCommand(const ProgramCommand& twin, int& status) {
   command.option("LOG", request->file, "LCM log or rosbag, such as demo.lcmlog, night.bag")
       .required()
       .type("");
-  command.option("--csv", request->csv, "write tables into this folder").type("FOLDER");
+  command.option("--csv", request->csv, "write tables to this folder").type("FOLDER");
   command.option("--bag", request->bag, "write a rosbag").type("FILE");
   command.option("--mcap", request->mcap, "write an MCAP file").type("FILE");
   command.option("--compress", request->compress, "lz4: the chunks of the MCAP file").type("lz4");
   addChannelOption(command, request->channels);
   command
       .option("--lcm-prefix", request->lcm_prefix,
-              "what the channels of the recorded twin begin with; default: TWIN_")
+              "prefix of the recorded twin's channels; default: TWIN_")
       .type("PREFIX");
-  command.flag("--force", request->force, "write over what exists");
+  command.flag("--force", request->force, "overwrite existing files");
   command.flag("--json", request->json, "print one JSON object");
   command.footer(kExportFooter);
   command.callback([request, &status] { status = exportLogFile(*request); });

@@ -21,39 +21,37 @@ namespace whirl_twin {
 
 #ifndef WHIRL_TWIN_FIT
 ShootingFit fitByShooting(const FitStudy&, const FitProgress&) {
-  throw RunFailure("fit: this twin was built without Ceres: scripts/setup --fit, then build again");
+  throw RunFailure("fit: built without Ceres: run scripts/setup --fit, then build again");
 }
 #endif
 
 namespace {
 
 constexpr const char* kFitDescription =
-    "Finds parameters of a system from measured runs: values, how certain they are, what the runs "
-    "do\nnot tell, and how well runs that were left out are predicted.";
+    "Identifies parameters of a system from measured runs: values, confidence intervals, "
+    "parameters\nthat are not identifiable, and how well validation runs are predicted.";
 
 constexpr const char* kFitFooter =
-    "STUDY is YAML; its paths count from its folder:\n"
+    "STUDY is YAML; its paths are relative to its folder:\n"
     "  scene: double.yaml\n"
     "  system: pendulum\n"
     "  runs:                                              comma-separated values, a row of names\n"
     "    - {file: swing_1.csv, use: train, time: time, measured: {theta1: q1, theta2: q2}}\n"
     "    - {file: swing_9.csv, use: validate, time: time, measured: {theta1: q1, theta2: q2},\n"
-    "       inputs: {torque1: tau}}                       what acted on an input of the model\n"
+    "       inputs: {torque1: tau}}                       measured inputs of the model\n"
     "  windows: {length: 1.0, start: estimated}           s, or all; start: measured\n"
     "  fit: {mass1: {min: 0.01, max: 1.0}, coulomb1: {min: 0.0}}\n"
     "A run may be an LCM log or a rosbag: swing.lcmlog, swing.bag, with channels of one source as "
     "columns.\n"
     "A coordinate, or its rate as theta1_rate, is scale * state + offset:\n"
     "  measured: {theta1: {column: q1, offset: fit, scale: 1.0, deviation: 0.001}}\n"
-    "An angle that counts within a turn is unwrapped, and a remark reports it; `wrap: false` takes "
-    "it as "
-    "it is.\n"
+    "An angle that counts within a turn is unwrapped, and a remark reports it; `wrap: false` "
+    "leaves it unchanged.\n"
     "  inputs: {torque1: {column: tau, scale: fit, offset: fit, delay: fit, hold: true}}\n"
-    "A number that is `fit` is one for all runs; `each_run`: another in each, validated ones, "
-    "too.\n"
-    "Values start as in the scene. In directions that the runs do not tell they stay there, and "
-    "that is\nsaid. Exit status: 0 fitted; 1 no fit was found; 2 a study, scene or run that cannot "
-    "be used.";
+    "A value `fit` is one for all runs; `each_run` is one for each run, validation runs included.\n"
+    "Values start as in the scene. In directions that are not identifiable they keep these "
+    "values,\nand a remark reports it. Exit status: 0 fitted; 1 no fit was found; 2 a study, scene "
+    "or run that\ncannot be used.";
 
 struct FitRequest {
   std::string study;
@@ -104,7 +102,7 @@ int fit(const FitRequest& request) {
   std::optional<ProgressBar> bar;
   const ShootingFit fit = fitByShooting(study, [&](int done, int of) {
     if (!bar) {
-      bar.emplace(fmt::format("{} rounds at most", of), of, request.json, request.insist);
+      bar.emplace(fmt::format("at most {} iterations", of), of, request.json, request.insist);
     }
     bar->show(done);
   });
@@ -131,22 +129,23 @@ int fit(const FitRequest& request) {
 void addFitCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("fit", kFitDescription);
   const auto request = std::make_shared<FitRequest>();
-  command.option("STUDY", request->study, "what to fit to which runs").required().type("");
-  command.option("--output", request->output, "write the scene with the values found")
+  command.option("STUDY", request->study, "the study (YAML)").required().type("");
+  command.option("--output", request->output, "write the scene with the fitted values")
       .type("FILE.yaml");
   command
       .option("--plot", request->plot,
-              "draw each run beside what is predicted: FILE.svg or FILE.png, of several runs "
+              "draw each run and its prediction: FILE.svg or FILE.png, of several runs "
               "FILE_RUN")
       .type("FILE");
   command
       .option("--lcm-prefix", request->lcm_prefix,
-              "what the channels of the machine begin with in runs that are logs; default: "
+              "prefix of the machine's channels in runs that are logs; default: "
               "TWIN_")
       .type("PREFIX");
-  command.flag("--validate-only", request->validate_only, "find nothing but the starts of windows");
+  command.flag("--validate-only", request->validate_only,
+               "fit only the initial states of the windows");
   command.flag("--check", request->check,
-               "fit nothing: tell what is odd about the runs, with its rows");
+               "fit nothing: report anomalies of the runs, with their rows");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);

@@ -20,16 +20,16 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kFollowDescription =
-    "Follows a machine through the measurements in an LCM log or a rosbag, faster than real time:\n"
-    "estimates what is not measured, and the parameters that --settings name, and says where "
-    "machine\n"
-    "and model part.";
+    "Estimates the state of a machine from the measurements in an LCM log or a rosbag, faster "
+    "than\n"
+    "real time: states that are not measured, and the parameters that --settings name; reports "
+    "where\n"
+    "machine and model diverge.";
 
 constexpr const char* kFollowFooter =
-    "The scene's sensors say what is measured, where, and with how much noise. What the follower "
-    "does\nlive (follow_node) it does here, to the bit. What there is none of, such as a drift, or "
-    "a "
-    "residual of\na channel that was not used, is null in the JSON.\n"
+    "The scene's sensors specify what is measured, where, and with how much noise. The result "
+    "is\nbit-identical to that of follow_node. A value that does not exist, such as a drift, or "
+    "the residual\nof a channel that was not used, is null in the JSON.\n"
     "\n"
     "Examples:\n"
     "  twin simulate rig.yaml --measure sensors --output rig.lcmlog && twin follow rig.yaml "
@@ -85,8 +85,9 @@ int follow(const FollowRequest& request) {
   const Twin twin(readFollowedSceneFile(scenePath(request.scene)));
   const FollowSettings settings =
       request.settings
-          ? readFollowSettings(readYamlFile(*request.settings, "settings of a follower", "systems"),
-                               *request.settings, twin.built())
+          ? readFollowSettings(
+                readYamlFile(*request.settings, "settings of the state estimator", "systems"),
+                *request.settings, twin.built())
           : FollowSettings{};
   const std::int64_t every = strideOf(request, twin.scene());
   const auto writer = writerOf(request, twin);
@@ -123,17 +124,17 @@ void addFollowCommand(const ProgramCommand& twin, int& status) {
       .type("");
   command
       .option("--settings", request->settings,
-              "what to follow beside the motion: parameters, unbalance, zeros of sensors")
+              "what to estimate beside the motion: parameters, unbalance, sensor offsets")
       .type("FILE");
-  command.option("--output", request->output, "write the twin's motion, FILE.csv or FILE.lcmlog")
+  command.option("--output", request->output, "write the estimated motion, FILE.csv or FILE.lcmlog")
       .type("FILE");
   command
       .option("--sample", request->sample,
-              "from one sample of the motion to the next, to the nearest step; default: a step")
+              "period of the samples written, to the nearest step; default: a step")
       .type("S");
   command
       .option("--lcm-prefix", request->lcm_prefix,
-              "what the channels of the machine begin with; default: TWIN_")
+              "prefix of the machine's channels; default: TWIN_")
       .type("PREFIX");
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);

@@ -17,15 +17,15 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kImportDescription =
-    "Writes the scene of a rotor that another program has saved, and tells what it leaves out.";
+    "Writes the scene of a rotor saved by another program, and reports what it leaves out.";
 
 constexpr const char* kImportFooter =
     "FORMAT is ross (a .toml or .json of ROSS's Rotor.save()) or csv (a table of shaft elements:\n"
-    "length, outer_diameter, inner_diameter ..., each with its unit behind it if not in SI).\n"
+    "length, outer_diameter, inner_diameter ..., each followed by its unit if not SI).\n"
     "\n"
     "Examples:\n"
     "  twin import ross compressor.toml > compressor.yaml\n"
-    "  twin import csv elements.csv --output shaft.yaml         of a line `length "
+    "  twin import csv elements.csv --output shaft.yaml         with a line `length "
     "(mm),outer_diameter (mm)`\n"
     "                                                           and one for each element";
 
@@ -67,7 +67,7 @@ void addImportCommand(const ProgramCommand& twin, int& status) {
       .required()
       .among({"ross", "csv"})
       .type("");
-  command.option("FILE", request->file, "what the other program wrote").required().type("");
+  command.option("FILE", request->file, "the file of the other program").required().type("");
   command.option("--output", request->output, "the scene's file").type("FILE.yaml");
   command.footer(kImportFooter);
   command.callback([request, &status] { status = importRotor(*request); });

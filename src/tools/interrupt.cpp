@@ -17,7 +17,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler")
 constexpr suseconds_t kGrace = 700'000;  // µs, to notice the flag
 
 void endNow(int) {
-  constexpr char kMessage[] = "twin: interrupted; what was finished is kept\n";
+  constexpr char kMessage[] = "twin: interrupted; finished results are kept\n";
   const ssize_t written = ::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
   static_cast<void>(written);  // nobody is left to be told
   ::_exit(kFailed);

@@ -87,7 +87,7 @@ std::string upper(std::string word) {
 void addListing(const ProgramCommand& twin, int& status, const Listing& listing) {
   const ProgramCommand command = twin.subcommand(listing.kind + "s", listing.description);
   const auto request = std::make_shared<ListingRequest>();
-  command.option(upper(listing.kind), request->names, "these " + listing.kind + "s only").type("");
+  command.option(upper(listing.kind), request->names, "only these " + listing.kind + "s").type("");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
   command.footer(listing.footer);

@@ -17,12 +17,12 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kLogDescription =
-    "Looks into an LCM log: channels, how many events, the time they span, gaps in the steps, and\n"
-    "events that are damaged or cannot be meant.";
+    "Summarizes an LCM log: channels, number of events, the time they span, gaps in the steps, "
+    "and\ncorrupt or invalid events.";
 
 constexpr const char* kLogFooter =
-    "A gap is a place where states of a channel are missing. Exit status: 0 nothing is damaged,\n"
-    "1 there are damaged events, 2 the file cannot be read or holds no event at all.\n"
+    "A gap is a place where states of a channel are missing. Exit status: 0 no corrupt events,\n1 "
+    "corrupt events, 2 the file cannot be read or has no event at all.\n"
     "\n"
     "Examples:\n"
     "  twin simulate demo --output demo.lcmlog && twin log demo.lcmlog\n"
@@ -106,8 +106,7 @@ std::string channelText(const ChannelSummary& channel) {
     out += fmt::format(", {} out of order", channel.late);
   }
   if (channel.backward > 0) {
-    out +=
-        fmt::format(", begun anew {} time{}", channel.backward, channel.backward == 1 ? "" : "s");
+    out += fmt::format(", restarted {} time{}", channel.backward, channel.backward == 1 ? "" : "s");
   }
   if (channel.rejected > 0) {
     out += fmt::format(", {} corrupt", channel.rejected);
@@ -154,17 +153,17 @@ int summarize(const LogRequest& request) {
   requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
   if (BagScan::isBag(request.file)) {
-    throw Refusal(request.file +
-                  ": expected an LCM log, found a rosbag: `rosbag info` looks into it");
+    throw Refusal(request.file + ": must be an LCM log, found a rosbag; use `rosbag info`");
   }
   const LogSummary log = readEventLog(request.file, request.lcm_prefix);
   if (log.events == 0) {
-    throw Refusal(log.channels.empty()
-                      ? fmt::format("{}: expected an LCM log, found no event in {} bytes",
-                                    request.file, log.size)
-                      : fmt::format("{}: no event can be used; the twin's channels were expected "
-                                    "to begin with {} (--lcm-prefix)",
-                                    request.file, request.lcm_prefix));
+    throw Refusal(
+        log.channels.empty()
+            ? fmt::format("{}: expected an LCM log, found no event in {} bytes", request.file,
+                          log.size)
+            : fmt::format(
+                  "{}: no event can be used; the twin's channels must begin with {} (--lcm-prefix)",
+                  request.file, request.lcm_prefix));
   }
   if (request.csv) {
     writeCsv(*request.csv, {channelTable(log)});
@@ -185,7 +184,7 @@ void addLogCommand(const ProgramCommand& twin, int& status) {
   command.option("FILE", request->file, "LCM log, such as demo.lcmlog").required().type("");
   command
       .option("--lcm-prefix", request->lcm_prefix,
-              "what the channels of the recorded twin begin with; default: TWIN_")
+              "prefix of the recorded twin's channels; default: TWIN_")
       .type("PREFIX");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");

@@ -14,15 +14,16 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kLoopDescription =
-    "The loops that a scene's controllers close, judged as they are sampled: rates and delays\n"
-    "as they are, several at once.";
+    "Stability of the sampled control loops of a scene, with the rates and delays of "
+    "all\ncontrollers together.";
 
 constexpr const char* kLoopFooter =
-    "Small motions about the equilibrium nearest to where each system starts, through the\n"
-    "transition matrix of one sample (of several rates: of the time after which all samples come\n"
-    "again). Its characteristic polynomial goes through Routh's test, exactly, on w with\n"
-    "z = (1 + w)/(1 - w); the eigenvalues stand beside it. What a linear law does not show,\n"
-    "limits, slew and resolution, is not in it.\n"
+    "Linearized about the motion in which the loop holds its systems, with the present set-points\n"
+    "(where it holds none, about the equilibrium nearest to the start), through the transition\n"
+    "matrix of one sample (with several rates: of the period after which all samples repeat). Its\n"
+    "characteristic polynomial is put to the exact Routh test in w with z = (1 + w)/(1 - w); the\n"
+    "eigenvalues are printed beside it. Limits, slew rate and resolution are not linear and not\n"
+    "included.\n"
     "In the picture: Bode and Nyquist diagrams of the loop opened at each sensor, and the\n"
     "sensitivity there over the zones of ISO 14839-3.\n"
     "\n"
@@ -68,7 +69,8 @@ void addLoopCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("loop", kLoopDescription);
   const auto request = std::make_shared<LoopRequest>();
   addSceneOption(command, request->scene);
-  command.option("--speed", request->speed, "of all shafts [rad/s], in place of that at the start")
+  command
+      .option("--speed", request->speed, "speed of all shafts [rad/s]; default: that at the start")
       .type("W");
   command.option("--plot", request->plot, "the diagrams, FILE.svg or FILE.png").type("FILE");
   command.flag("--json", request->json, "print one JSON object");

@@ -14,13 +14,13 @@ namespace {
 
 constexpr const char* kMapDescription =
     "Critical speed map: the undamped forward critical speeds of a flexible_rotor over the\n"
-    "stiffness of its bearings, and its own bearings on it.";
+    "stiffness of its bearings, with the actual bearings marked.";
 
 constexpr const char* kMapFooter =
     "Every bearing has the stiffness of the map in all directions, on rigid ground, without\n"
-    "damping. Nodes that are held by less than a tenth of the stiffest, seals, are left out "
-    "unless\n"
-    "--bearing names them.\n"
+    "damping. Supports with less than a tenth of the highest stiffness, such as seals, are left "
+    "out\n"
+    "unless --bearing names their nodes.\n"
     "\n"
     "Examples:\n"
     "  twin map friswell_rotor --plot map.svg\n"
@@ -68,13 +68,13 @@ void addMapCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("map", kMapDescription);
   const auto request = std::make_shared<MapRequest>();
   addSceneOption(command, request->scene);
-  command.option("--system", request->system, "this rotor only").type("NAME");
-  command.option("--from", request->map.from, "N/m; default: a decade below the bearings' own")
+  command.option("--system", request->system, "only this rotor").type("NAME");
+  command.option("--from", request->map.from, "N/m; default: a decade below the actual bearings")
       .type("K");
-  command.option("--to", request->map.to, "N/m; default: two decades above the bearings' own")
+  command.option("--to", request->map.to, "N/m; default: two decades above the actual bearings")
       .type("K");
-  command.option("--points", request->map.points, "stiffnesses; default: 61").type("N");
-  command.option("--modes", request->map.modes, "how many, the lowest; default: 4").type("N");
+  command.option("--points", request->map.points, "number of stiffnesses; default: 61").type("N");
+  command.option("--modes", request->map.modes, "number of lowest modes; default: 4").type("N");
   command.option("--bearing", request->map.nodes, "nodes whose bearings are varied").type("NODE");
   command.option("--plot", request->plot, "the map, FILE.svg or FILE.png").type("FILE");
   addCsvOption(command, request->csv);

@@ -56,12 +56,15 @@ std::string listedModelText(const ModelInfo& model) {
          fmt::format("  integrators {}\n", fmt::join(integratorsOf(model.variants.front()), ", "));
 }
 
-/// What is said of one form of a model.
-Json variantJson(const ModelVariant& v) {
+/// One form of a model; coordinates whose number depends on the scene have their meaning as text.
+Json variantJson(const ModelVariant& v, const std::string& coordinates_meaning) {
   Json json;
   json["linear"] = v.linear;
   json["rotor"] = v.rotor;
   json["coordinates"] = Json::object();
+  if (v.coordinates.empty()) {
+    json["coordinates_meaning"] = coordinates_meaning;
+  }
   for (const CoordinateInfo& c : v.coordinates) {
     json["coordinates"][c.name] = {{"unit", c.unit}, {"meaning", c.meaning}};
   }
@@ -74,11 +77,12 @@ Json variantJson(const ModelVariant& v) {
 }
 
 Json listedModelJson(const ModelInfo& model) {
-  Json json = variantJson(model.variants.front());
+  Json json = variantJson(model.variants.front(), model.coordinates_meaning);
   json["summary"] = model.summary;
   json["shaft"] = model.has_shaft;
   for (std::size_t i = 1; i < model.variants.size(); ++i) {
-    json["variants"][model.variants[i].when] = variantJson(model.variants[i]);
+    json["variants"][model.variants[i].when] =
+        variantJson(model.variants[i], model.coordinates_meaning);
   }
   for (const ParameterInfo& p : model.parameters) {
     json["parameters"][p.name] = parameterJson(p);

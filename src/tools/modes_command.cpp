@@ -15,15 +15,14 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kModesDescription =
-    "Modes of the rotors of a scene at a speed: frequency, damping, sense, shape; and, from a log\n"
-    "of the running machine, those that its ambient vibration shows, with intervals.";
+    "Modes of the rotors of a scene at a speed: frequency, damping, direction, shape; and, from "
+    "a\nlog of the running machine, those identified from its ambient vibration, with intervals.";
 
 constexpr const char* kModesFooter =
     "LOG is an LCM log with the measurements of the scene's `sensors`, displacement probes and a\n"
-    "keyphasor, as `twin simulate --measure` writes them, or with the whirl that a twin told. "
-    "What\n"
-    "turns with the shaft is taken away; what stays from model order to model order is a mode. "
-    "The\n"
+    "keyphasor, as `twin simulate --measure` writes them, or with the whirl that a twin "
+    "published.\n"
+    "The synchronous motion is removed; poles that persist over the model orders are modes. The\n"
     "speed is the one that was kept for longest. A decay rate s is known to sqrt(s/T) after T\n"
     "seconds at best.\n"
     "\n"
@@ -46,10 +45,10 @@ void requireModesUse(const ModesRequest& request) {
     throw Refusal("--speed: expected a shaft speed from 0 to 1e+06 rad/s");
   }
   if (request.limit && !request.measured) {
-    throw Refusal("--to: is for what is measured, with --measured LOG");
+    throw Refusal("--to: needs --measured LOG");
   }
   if (request.plot && request.measured) {
-    throw Refusal("--plot: draws the shapes of the model, without --measured");
+    throw Refusal("--plot: draws the mode shapes of the model; must not be given with --measured");
   }
   if (request.modes < 1 || request.modes > 100) {
     throw Refusal("--modes: expected from 1 to 100, found " + std::to_string(request.modes));
@@ -64,7 +63,7 @@ int showModes(const ModesRequest& request) {
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
   const auto systems = rotorSystems(scene, request.system);
   if (request.measured && systems.size() > 1) {
-    throw Refusal("--system: expected which of the rotors the log is of");
+    throw Refusal("--system: missing; must name the rotor that the log belongs to");
   }
   Json all;
   all["scene"] = scene.scene.name;
@@ -102,25 +101,23 @@ void addModesCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("modes", kModesDescription);
   const auto request = std::make_shared<ModesRequest>();
   addSceneOption(command, request->scene);
-  command.option("--system", request->system, "this rotor only").type("NAME");
-  command.option("--measured", request->measured, "a log of the running machine").type("LOG");
+  command.option("--system", request->system, "only this rotor").type("NAME");
+  command.option("--measured", request->measured, "log of the running machine").type("LOG");
   command
       .option("--speed", request->speed,
-              "rad/s, of the shaft; default: the drive's highest, of a log the one kept for "
+              "speed of the shaft [rad/s]; default: the drive's highest; of a log the one kept for "
               "longest")
       .type("W");
   command
       .option("--to", request->limit,
-              "rad/s, of the frequencies that are looked for; default: a little beyond the "
-              "model's sixth")
+              "highest frequency searched [rad/s]; default: slightly above the model's sixth")
       .type("W");
   command
-      .option("--lcm-prefix", request->lcm_prefix,
-              "what the channels of the log begin with; default: TWIN_")
+      .option("--lcm-prefix", request->lcm_prefix, "prefix of the log's channels; default: TWIN_")
       .type("PREFIX");
-  command.option("--plot", request->plot, "the shapes of the lowest, FILE.svg or FILE.png")
+  command.option("--plot", request->plot, "the lowest mode shapes, FILE.svg or FILE.png")
       .type("FILE");
-  command.option("--modes", request->modes, "how many are drawn; default: 6").type("N");
+  command.option("--modes", request->modes, "number of modes drawn; default: 6").type("N");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
   command.footer(kModesFooter);

@@ -21,13 +21,12 @@ namespace {
 
 constexpr const char* kMonitorDescription =
     "Replays an LCM log or a rosbag through the monitor, faster than real time: which alerts it\n"
-    "raises and when, and where the margins are least; which resonances the run-ups passed, and "
-    "the\n"
-    "lines of the full spectrum.";
+    "raises and when, and the smallest margins; which resonances the run-ups passed, and "
+    "the\ncomponents of the full spectrum.";
 
 constexpr const char* kMonitorFooter =
-    "The monitor's clock is that of the log's stamps; it judges with the settings of --settings, "
-    "as\nmonitor_node does with its parameters. Exit status: 0 replayed, whatever it raised; 2 a "
+    "The monitor's clock is that of the log's stamps; its limits are those of --settings, as those "
+    "of\nmonitor_node are its parameters. Exit status: 0 replayed, with or without alerts; 2 a "
     "scene, a\nlog or settings that cannot be used.\n"
     "\n"
     "Examples:\n"
@@ -116,16 +115,18 @@ void addMonitorCommand(const ProgramCommand& twin, int& status) {
   command.option("LOG", request->log, "LCM log or rosbag, such as demo.lcmlog, night.bag")
       .required()
       .type("");
-  command.option("--settings", request->settings, "as config/monitor.yaml; default: that")
+  command
+      .option("--settings", request->settings, "YAML like config/monitor.yaml; default: that file")
       .type("FILE");
-  command.option("--output", request->output, "write the report as a page, FILE.html").type("FILE");
+  command.option("--output", request->output, "write the report as an HTML page, FILE.html")
+      .type("FILE");
   command
       .option("--lcm-prefix", request->lcm_prefix,
-              "what the channels of the recorded twin begin with; default: TWIN_")
+              "prefix of the recorded twin's channels; default: TWIN_")
       .type("PREFIX");
   command
       .option("--spectrum-at", request->spectrum_at,
-              "where the window of the full spectrum ends, simulated; default: at the end")
+              "end of the window of the full spectrum [s, simulated]; default: the end of the log")
       .type("S");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");

@@ -19,8 +19,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kNewDescription =
-    "Writes a scene to begin with, of one system of a model: every key with its unit and meaning,\n"
-    "numbers of a scene of the package, and defaults behind a #.";
+    "Writes a first scene with one system of a model: every key with its unit and meaning,\nvalues "
+    "of a scene of the package, and defaults as comments.";
 
 constexpr const char* kNewFooter =
     "Examples:\n"

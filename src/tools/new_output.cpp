@@ -15,7 +15,7 @@ void requireNew(const std::string& option, const std::string& path, bool force) 
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   if (!force && (fs::is_regular_file(status) || fs::is_directory(status))) {
-    throw Refusal(fmt::format("{}: '{}' exists; --force writes over it", option, path));
+    throw Refusal(fmt::format("{}: '{}' exists; --force overwrites it", option, path));
   }
 }
 
@@ -24,7 +24,7 @@ PendingFolder::PendingFolder(const std::string& path) : final_(fs::path(path) / 
   written_ = fmt::format("{}.{}.part", final_, ::getpid());
   std::error_code error;
   if (fs::exists(final_, error) && !fs::is_directory(final_, error)) {
-    throw RunFailure(fmt::format("{}: cannot be written: it is no folder", final_));
+    throw RunFailure(fmt::format("{}: cannot be written: not a folder", final_));
   }
   if (!fs::create_directory(written_, error)) {
     throw RunFailure(fmt::format("{}: cannot be written: {}", final_, error.message()));

@@ -37,7 +37,7 @@ void Patience::watch() {
     }
     if (processorTime() > kLong) {
       complain(
-          fmt::format("{}: at work for {:.0f} s; how long it takes is not known. Ctrl-C ends it\n",
+          fmt::format("{}: running for {:.0f} s; the remaining time is unknown. Ctrl-C stops it\n",
                       command_, processorTime()));
       return;
     }

@@ -24,18 +24,20 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kPlayDescription =
-    "Plays an LCM log on LCM, at its own pace or another, from any instant; ends by itself.";
+    "Plays an LCM log on LCM, at the recorded or another rate, from any instant, and exits.";
 
 constexpr const char* kPlayFooter =
-    "Keys, in a terminal: space holds and goes on, s plays one event and holds, + and - double "
+    "Keys, in a terminal: space pauses and resumes, s plays one event and pauses, + and - double "
     "and\n"
-    "halve the rate, the arrows go 10 s forward and back, q ends.\n"
+    "halve the rate, the arrows move 10 s forward and back, q quits.\n"
     "\n"
-    "What is damaged or cannot be meant, and states told twice, are left out; with gaps they are\n"
-    "counted and named with their byte. Commands to a twin or a monitor are not sent but with\n"
-    "--commands. Where nothing happens for more than a minute, one second is waited. At the end, "
-    "and\n"
-    "while it is held, TWIN_LOOP says that the run is held, so that no monitor misses its data.\n"
+    "Corrupt and invalid events and repeated states are left out, and counted and listed with "
+    "their\n"
+    "byte offset, as gaps are. Commands to a twin or a monitor are sent only with --commands. "
+    "Where\n"
+    "the log has no event for more than a minute, playback waits one second. At the end, and "
+    "while\n"
+    "playback is paused, TWIN_LOOP reports a paused run, so that no monitor raises a timeout.\n"
     "Exit status: 0 played, 1 LCM could not send, 2 a log that cannot be played.\n"
     "\n"
     "Examples:\n"
@@ -253,7 +255,7 @@ class Player {
     next_show_ = Clock::now() + kOften;
     const std::string rate = rate_ > 0.0 ? fmt::format("x {:g}", rate_) : "max";
     fmt::print(stderr, "\r{:10.3f} of {:.3f} s  {}  {}  \x1b[K{}", inSeconds(at_),
-               inSeconds(*log_.end()), rate, held_ ? "held" : "", last ? "\n" : "");
+               inSeconds(*log_.end()), rate, held_ ? "paused" : "", last ? "\n" : "");
     std::fflush(stderr);
   }
 
@@ -285,10 +287,10 @@ std::string playText(const Player& player) {
   say(log.commands, "commands not sent (--commands sends them)");
   say(log.not_selected, "on channels that were not selected");
   say(log.rejected, "corrupt events left out");
-  say(log.damaged, "damaged places left out");
+  say(log.damaged, "corrupt places left out");
   say(log.repeated, "repeated states left out");
   say(log.gaps, "gaps in the steps");
-  say(player.cuts(), "jumps of the log's time, not waited for");
+  say(player.cuts(), "jumps of the log's time, skipped");
   for (const LogDefect& defect : log.defects) {
     out += fmt::format("  at byte {}: {}\n", defect.offset, defect.what);
   }
@@ -332,14 +334,13 @@ void addPlayCommand(const ProgramCommand& twin, int& status) {
   command.option("--duration", request->duration, "s, of the log; default: to its end").type("S");
   command.option("--rate", request->rate, "0.1 to 1000 times as recorded, or max; default: 1")
       .type("R");
-  command.flag("--loop", request->loop, "begin again at the end");
+  command.flag("--loop", request->loop, "repeat the log");
   addChannelOption(command, request->channels);
-  command.flag("--commands", request->commands,
-               "send the commands to twin and monitor in the log, too");
+  command.flag("--commands", request->commands, "also send the log's commands to twin and monitor");
   command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");
   command
       .option("--lcm-prefix", request->lcm_prefix,
-              "what the channels of the recorded twin begin with; default: TWIN_")
+              "prefix of the recorded twin's channels; default: TWIN_")
       .type("PREFIX");
   command.flag("--json", request->json, "print one JSON object");
   command.footer(kPlayFooter);

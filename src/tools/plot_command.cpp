@@ -25,11 +25,11 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kPlotDescription =
-    "Runs a scene from its start and draws what happens: for each system a picture, its time\n"
-    "history, its phase portrait and its energies. Or draws what a study has found.";
+    "Runs a scene from its start and draws the result: for each system a picture, its "
+    "time\nhistory, its phase portrait and its energies. Or draws the results of a study.";
 
 constexpr const char* kPlotFooter =
-    "Into the folder, for each system, as svg (sharp at any size) or png:\n"
+    "Files in the folder, for each system, as svg or png:\n"
     "  NAME_picture   to scale, at the start, with later positions and the path of a point;\n"
     "                 a model given by its matrices and a whirling disc have none\n"
     "  NAME_time      its coordinates; of a rotor whirl radius, phase lag where the whirl goes "
@@ -37,13 +37,13 @@ constexpr const char* kPlotFooter =
     "                 the shaft, and shaft speed, with marks where that passes a critical speed\n"
     "  NAME_phase     the rate of each coordinate over it; of a rotor the orbit\n"
     "  NAME_energy    kinetic and potential energy, and h\n"
-    "  NAME_ensemble  of a system with a count: percentiles over time, and the members' peaks\n"
+    "  NAME_ensemble  of a system with a count: percentiles over time, and the samples' peaks\n"
     "Of a study, with the results of `twin sweep`, for each measure:\n"
     "  NAME_histogram percentiles, and the limits of what is required\n"
-    "  NAME_scatter   over each number that varies; one at a time: its course over each\n"
-    "  NAME_tornado   which number it hangs on: sobol_indices, morris, one_at_a_time\n"
-    "  NAME_map       over both numbers of a grid of two\n"
-    "Files appear only when all of them are complete, and so does the folder.\n"
+    "  NAME_scatter   over each varied parameter; one at a time: its curve over each\n"
+    "  NAME_tornado   its sensitivity to each: sobol_indices, morris, one_at_a_time\n"
+    "  NAME_map       over both parameters of a grid of two\n"
+    "The folder and its files appear only when all of them are complete.\n"
     "\n"
     "Examples:\n"
     "  twin plot double_pendulum --system absolute --duration 20\n"
@@ -105,7 +105,7 @@ class OutputFolder {
       throw Refusal(fmt::format("--output: must be a folder, found '{}'", name));
     }
     if (!fs::is_directory(name)) {
-      throw RunFailure(fmt::format("{}: cannot be made: {}", name, error.message()));
+      throw RunFailure(fmt::format("{}: cannot be created: {}", name, error.message()));
     }
   }
   ~OutputFolder() {
@@ -130,13 +130,12 @@ void complete(const std::vector<std::unique_ptr<WaitingFile>>& files) {
 
 int plotStudy(const PlotRequest& request, ImageFormat format) {
   if (request.run.system || request.run.duration) {
-    throw Refusal(fmt::format("{}: goes with a scene, not with the results of a study",
+    throw Refusal(fmt::format("{}: needs a scene, found the results of a study",
                               request.run.system ? "--system" : "--duration"));
   }
   const Study study = readStudy(request.run.scene);
   if (study.optimization) {
-    throw Refusal(
-        fmt::format("{}: looks for an optimum: there are no points to draw", study.source));
+    throw Refusal(fmt::format("{}: an optimization has no points to draw", study.source));
   }
   if (!std::filesystem::exists(*request.results + "/manifest.yaml")) {
     throw Refusal(fmt::format("--results: {} has no results of a study", *request.results));
@@ -181,7 +180,7 @@ int plot(const PlotRequest& request) {
     return plotStudy(request, format);
   }
   if (isStudy(request.run.scene)) {
-    throw Refusal("--results: missing; must be the folder that `twin sweep` has written");
+    throw Refusal("--results: missing; must be the folder written by `twin sweep`");
   }
   SimulationPlan plan = planSimulation(request.run);
   const OutputFolder made(request.folder);
@@ -211,7 +210,7 @@ void addPlotCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("plot", kPlotDescription);
   const auto request = std::make_shared<PlotRequest>();
   addSceneOption(command, request->run.scene);
-  command.option("--system", request->run.system, "plot this system only").type("NAME");
+  command.option("--system", request->run.system, "plot only this system").type("NAME");
   command
       .option("--duration", request->run.duration,
               "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
@@ -221,7 +220,7 @@ void addPlotCommand(const ProgramCommand& twin, int& status) {
       .type("FOLDER");
   command
       .option("--output", request->folder,
-              "folder of the files, made if need be; default: this one")
+              "folder of the files, created if missing; default: the current one")
       .type("FOLDER");
   command.option("--format", request->format, "svg or png; default: svg").type("FORMAT");
   addInsistOption(command, request->run.insist);

@@ -59,7 +59,7 @@ std::int64_t ProgressBar::show(std::int64_t step) {
 
 void ProgressBar::draw(double part, double left) {
   const auto filled = static_cast<std::size_t>(std::min(part, 1.0) * kWidth);
-  putOnTerminal(fmt::format("\r[{}{}] {:3.0f} %, {} left\033[K", std::string(filled, '#'),
+  putOnTerminal(fmt::format("\r[{}{}] {:3.0f} %, {} remaining\033[K", std::string(filled, '#'),
                             std::string(kWidth - filled, ' '), 100.0 * part, inWords(left)));
   drawn_ = true;
 }

@@ -32,16 +32,16 @@ constexpr const char* kRecordDescription =
     "Records what a twin sends on LCM, as an LCM log or an MCAP file, until Ctrl-C.";
 
 constexpr const char* kRecordFooter =
-    "An LCM log (FILE.lcmlog) has every event as it came; an MCAP file (FILE.mcap) the ROS "
+    "An LCM log (FILE.lcmlog) has every event as received; an MCAP file (FILE.mcap) the ROS "
     "messages\n"
     "that a bridge would publish. The time of an event is that of its reception. With "
     "--split-size\n"
-    "or --split-time it is FILE-000, FILE-001 and so on. A file gets its name when it is "
-    "complete;\n"
-    "until then it is FILE.PID.part, which after a crash can be read up to its end. At the end it\n"
-    "says what has come, what is missing by its steps, and what could not be meant. Exit status: "
-    "0\n"
-    "recorded, 1 nothing came, or it cannot be written, 2 bad input.\n"
+    "or --split-time the files are FILE-000, FILE-001 and so on. A file gets its name when it is\n"
+    "complete; until then it is FILE.PID.part, which after a crash can be read up to its end. At "
+    "the\n"
+    "end the events received, the events lost (by their step numbers) and the corrupt ones are\n"
+    "printed. Exit status: 0 recorded, 1 nothing was received, or it cannot be written, 2 bad "
+    "input.\n"
     "\n"
     "Examples:\n"
     "  twin record night.lcmlog --split-size 1000\n"
@@ -204,7 +204,7 @@ class Recorder {
   void rethrow() {
     if (!failure_.empty()) {
       file_->keep();
-      throw RunFailure(fmt::format("{}; {} has what came before, {} events in all", failure_,
+      throw RunFailure(fmt::format("{}; {} has the events before that, {} in all", failure_,
                                    file_->path(), counts_.events()));
     }
   }
@@ -291,18 +291,17 @@ void addRecordCommand(const ProgramCommand& twin, int& status) {
   const auto request = std::make_shared<RecordRequest>();
   command.option("FILE", request->file, "FILE.lcmlog or FILE.mcap").required().type("");
   command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
-  command.option("--split-size", request->split_size, "MB, after which another file begins")
+  command.option("--split-size", request->split_size, "MB per file; a new one is started then")
       .type("MB");
-  command.option("--split-time", request->split_time, "s, after which another file begins")
+  command.option("--split-time", request->split_time, "s per file; a new one is started then")
       .type("S");
   addChannelOption(command, request->channels);
-  command.flag("--all", request->all, "every LCM channel, not only the twin's");
+  command.flag("--all", request->all, "record every LCM channel, not only the twin's");
   command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");
   command
-      .option("--lcm-prefix", request->lcm_prefix,
-              "what the channels of the twin begin with; default: TWIN_")
+      .option("--lcm-prefix", request->lcm_prefix, "prefix of the twin's channels; default: TWIN_")
       .type("PREFIX");
-  command.flag("--force", request->force, "write over what exists");
+  command.flag("--force", request->force, "overwrite existing files");
   command.flag("--json", request->json, "print one JSON object");
   command.footer(kRecordFooter);
   command.callback([request, &status] { status = record(*request); });

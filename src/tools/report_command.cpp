@@ -20,17 +20,15 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kReportDescription =
-    "All that is told of the rotors of a scene on paper: a page of HTML each, its pictures "
-    "inside,\n"
-    "that opens without a network and prints.";
+    "Reports on the rotors of a scene: one HTML page each, with its pictures inside, that opens\n"
+    "without a network and can be printed.";
 
 constexpr const char* kReportFooter =
-    "Of a flexible_rotor: drawing and tables of its parts, mass, sag, bearing loads, shear force\n"
-    "and bending moment, critical speed map. Of every linear rotor: whirl modes, Campbell "
+    "For a flexible_rotor: drawing and tables of its parts, mass, sag, bearing loads, shear force\n"
+    "and bending moment, critical speed map. For every linear rotor: whirl modes, Campbell "
     "diagram,\n"
     "unbalance response with amplification factors and separation margins, stability level I. "
-    "What\n"
-    "is left out is told at its end. The pages are FOLDER/SYSTEM.html.\n"
+    "Each\npage lists at its end what is left out. The pages are FOLDER/SYSTEM.html.\n"
     "\n"
     "Examples:\n"
     "  twin report friswell_rotor --output pages\n"
@@ -91,22 +89,22 @@ void addReportCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("report", kReportDescription);
   const auto request = std::make_shared<ReportRequest>();
   addSceneOption(command, request->scene);
-  command.option("--output", request->output, "where the pages go; made if it is not there")
+  command.option("--output", request->output, "folder of the pages, created if missing")
       .required()
       .type("FOLDER");
-  command.option("--system", request->system, "this rotor only").type("NAME");
+  command.option("--system", request->system, "only this rotor").type("NAME");
   command
       .option("--speed", request->report.speed,
-              "rad/s, of modes, margins and stability; default: the drive's highest")
+              "speed [rad/s] of modes, margins and stability; default: the drive's highest")
       .type("W");
   command
       .option("--stage", request->centrifugal,
-              "W, m, m, -: power, diameter, width, ratio of densities of a centrifugal stage")
+              "W, m, m, -: power, diameter, width, density ratio of a centrifugal stage")
       .values(4)
       .type("P D H RATIO");
   command
       .option("--axial-stage", request->axial,
-              "W, m, m: power, pitch diameter, height of the blades of an axial stage")
+              "W, m, m: power, pitch diameter, blade height of an axial stage")
       .values(3)
       .type("P D H");
   command.footer(kReportFooter);

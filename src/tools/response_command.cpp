@@ -16,17 +16,15 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kResponseFooter =
-    "Speeds are added where a peak needs them: none is missed between two points. The phase lag\n"
+    "Speeds are added near peaks, so that none is missed between two points. The phase lag\n"
     "is that of the forward whirl behind the shaft's phase mark (parameter phase_mark, an angle "
-    "of\n"
-    "the shaft as those of its unbalances). The picture: amplitude, phase, polar plot.\n"
+    "of\nthe shaft, as the angles of its unbalances are). The picture: amplitude, phase, polar "
+    "plot.\n"
     "\n"
-    "With --force the rotor's unbalance is left out: a harmonic force of 1 N that does not turn "
-    "acts\n"
-    "at a station, over its frequency, the shaft at one speed. Told are displacement and velocity "
-    "by\n"
-    "newton, receptance and mobility, wherever --at says. Of a shaft of elements all coordinates\n"
-    "count, however few it is stepped with.\n"
+    "With --force the rotor's unbalance is left out: a harmonic force of 1 N in a fixed direction "
+    "acts\nat a station, over its frequency, the shaft at one speed. Printed are the displacement "
+    "and velocity\nper newton, receptance and mobility, at the stations of --at. The full-order "
+    "model of a shaft of\nelements is used, also if the simulation uses a reduced one.\n"
     "\n"
     "Examples:\n"
     "  twin response demo --to 120 --plot bode.svg\n"
@@ -83,8 +81,8 @@ int show(const ResponseRequest& request, const Report& report) {
 void addCommonOptions(const ProgramCommand& command,
                       const std::shared_ptr<ResponseRequest>& request) {
   addSceneOption(command, request->scene);
-  command.option("--system", request->system, "this rotor only").type("NAME");
-  command.option("--plot", request->plot, "a picture, FILE.svg or FILE.png").type("FILE");
+  command.option("--system", request->system, "only this rotor").type("NAME");
+  command.option("--plot", request->plot, "the picture, FILE.svg or FILE.png").type("FILE");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
 }
@@ -99,23 +97,25 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
   command.option("--from", request->range.from, "rad/s; default: 0").type("W");
   command
       .option("--to", request->range.to,
-              "rad/s; default: 1.2 times the drive's highest speed; of a force a little beyond "
-              "the sixth mode")
+              "rad/s; default: 1.2 times the drive's highest speed; of a force slightly above the "
+              "sixth mode")
       .type("W");
-  command.option("--points", request->range.points, "speeds, at least; default: 200").type("N");
-  command.option("--station", request->station, "this place along the shaft only").type("NAME");
-  const Option force =
-      command.option("--force", request->force.force, "a harmonic force that does not turn")
-          .type("NAME");
-  command.option("--along", request->force.along, "x or y, of the force; default: x")
+  command.option("--points", request->range.points, "minimum number of speeds; default: 200")
+      .type("N");
+  command.option("--station", request->station, "only this station of the shaft").type("NAME");
+  const Option force = command
+                           .option("--force", request->force.force,
+                                   "station of a harmonic force in a fixed direction")
+                           .type("NAME");
+  command.option("--along", request->force.along, "direction of the force, x or y; default: x")
       .needs(force)
       .type("AXIS");
-  command.option("--at", request->force.at, "places that respond to it; default: its own")
+  command.option("--at", request->force.at, "stations of the response; default: that of the force")
       .needs(force)
       .type("NAME");
   command
       .option("--speed", request->force.speed,
-              "rad/s, of the shaft under it; default: the drive's highest")
+              "speed of the shaft [rad/s]; default: the drive's highest")
       .needs(force)
       .type("W");
   addInsistOption(command, request->insist);
@@ -139,11 +139,11 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
 }
 
 void addOrbitCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand(
-      "orbit", "Orbits that the unbalance drives at one speed, at every station of the rotors.");
+  const ProgramCommand command =
+      twin.subcommand("orbit", "Unbalance orbits at one speed, at every station of the rotors.");
   const auto request = std::make_shared<ResponseRequest>();
   addCommonOptions(command, request);
-  command.option("--speed", request->speed, "rad/s, of the shaft").required().type("W");
+  command.option("--speed", request->speed, "speed of the shaft [rad/s]").required().type("W");
   command.footer(kOrbitFooter);
   command.callback([request, &status] {
     status = show(*request,

@@ -23,24 +23,22 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kRouthDescription =
-    "Tells how many roots of a polynomial lie right of, on and left of the imaginary axis, by the\n"
-    "Routh-Hurwitz test, exact for the numbers as typed, and how far it is from instability; or, "
-    "with\n"
-    "a parameter, for which values of it the polynomial is stable.";
+    "Counts the roots of a polynomial right of, on and left of the imaginary axis, by the\n"
+    "Routh-Hurwitz test, exact for the coefficients as typed, with the distance to instability; "
+    "or,\nwith a parameter, finds the values for which the polynomial is stable.";
 
 constexpr const char* kRouthFooter =
     "Coefficients go highest power first, real (2, -0.1, 1e-3, 1/3) or complex (3+2i, -i). Put -- "
-    "before\n"
-    "them if one could be taken for an option. Leading zeros are dropped. Where exact numbers "
+    "before\nthem if one looks like an option. Leading zeros are dropped. Where exact numbers "
     "become\n"
-    "too long, the verdict is `uncertain` and the counts are those of the roots as computed. Of "
-    "real\n"
-    "ones the whole table is shown, and what is done where a row is zero, or begins with a zero.\n"
+    "too long, the verdict is `uncertain` and the counts are those of the roots as computed. "
+    "For\nreal coefficients the whole table is printed, with the treatment of rows that are or "
+    "begin with zero.\n"
     "\n"
-    "With --parameter K coefficients may have K in them (2K, \"(K+1)/3\", K^2). The bounds are "
+    "With --parameter K coefficients may contain K (2K, \"(K+1)/3\", K^2). The bounds are "
     "exact:\n"
-    "where a root passes 0, a pair the axis, or the degree falls; between them one exact test "
-    "tells.\n"
+    "where a root crosses 0, a pair the axis, or the degree falls; between them one exact test "
+    "decides.\n"
     "\n"
     "Examples:\n"
     "  twin routh 1 2 3 4               s^3 + 2 s^2 + 3 s + 4\n"
@@ -134,7 +132,7 @@ RouthJudgement judge(const std::vector<ComplexRational>& coefficients, bool real
         return std::isfinite(root.real()) && std::isfinite(root.imag());
       })) {
     throw Refusal(
-        "coefficients: a root lies beyond 1.8e308, the largest double; take a larger unit for s");
+        "coefficients: a root exceeds 1.8e308, the largest double; use a larger unit for s");
   }
   ExactBudget budget(kExactBudget);
   try {
@@ -193,11 +191,11 @@ CsvTables judgementTables(const RouthJudgement& j, const std::optional<RouthTabl
 }
 
 std::string judgementText(const RouthJudgement& j) {
-  std::string out = fmt::format(
-      "{} (degree {})\n",
-      j.exact ? verdictText(j.routh.verdict)
-              : "uncertain: the exact test was given up, its numbers become too long; as computed:",
-      j.roots.size());
+  std::string out = fmt::format("{} (degree {})\n",
+                                j.exact ? verdictText(j.routh.verdict)
+                                        : "uncertain: the exact test was stopped, because its "
+                                          "numbers become too long; as computed:",
+                                j.roots.size());
   out += routhText(j.routh) + marginsText(j.decay_rate, j.damping_ratio, j.log_decrement);
   for (const auto& root : j.roots) {
     out += fmt::format("    root            {:.6g} {:+.6g}i\n", root.real(), root.imag());
@@ -232,7 +230,7 @@ int testForParameter(const RouthRequest& request) {
       request.coefficients, [&](const std::string& typed) { return parseSymbolic(typed, symbol); });
   if (std::all_of(coefficients.begin(), coefficients.end(),
                   [](const SymbolicPolynomial& c) { return c.constant(); })) {
-    throw Refusal(fmt::format("--parameter: no coefficient has {} in it", symbol));
+    throw Refusal(fmt::format("--parameter: no coefficient contains {}", symbol));
   }
   ExactBudget budget(kExactBudget);
   const StabilityRange range = stabilityRange(coefficients, budget);
@@ -259,7 +257,7 @@ int test(const RouthRequest& request) {
       parseCoefficients(request.coefficients, parseCoefficient);
   if (std::all_of(coefficients.begin(), coefficients.end(),
                   [](const ComplexRational& c) { return c.re == 0 && c.im == 0; })) {
-    throw Refusal("coefficients: expected at least one that is not zero, found none");
+    throw Refusal("coefficients: at least one must not be zero, found none");
   }
   const bool real = std::all_of(coefficients.begin(), coefficients.end(),
                                 [](const ComplexRational& c) { return c.im == 0; });
@@ -297,7 +295,7 @@ void addRouthCommand(const ProgramCommand& twin, int& status) {
       .type("");
   command
       .option("--parameter", request->parameter,
-              "a name: for which values of it is the polynomial stable")
+              "name of a parameter: find its values for which the polynomial is stable")
       .type("K");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");

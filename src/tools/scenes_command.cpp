@@ -17,7 +17,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kScenesDescription =
-    "Lists the scenes that come with the package, or those of a folder: what each shows, and its\n"
+    "Lists the scenes of the package, or those of a folder: what each shows, what to watch, and "
+    "its\n"
     "systems with their models.";
 
 constexpr const char* kScenesFooter =
@@ -80,7 +81,8 @@ std::string sceneEntryText(const SceneEntry& entry) {
   for (const SystemSpec& system : entry.scene.systems) {
     systems += fmt::format("{}{} ({})", systems.empty() ? "" : ", ", system.name, system.model);
   }
-  return fmt::format("{}\n  {}\n  systems: {}\n", entry.name, entry.about, systems);
+  return fmt::format("{}\n  {}\n{}  systems: {}\n", entry.name, entry.about,
+                     entry.watch.empty() ? "" : "  " + entry.watch + "\n", systems);
 }
 
 Json sceneEntryJson(const SceneEntry& entry) {
@@ -102,7 +104,7 @@ int listScenes(const std::optional<std::string>& folder, bool as_json) {
   std::error_code error;
   if (!std::filesystem::is_directory(where, error)) {
     throw Refusal(folder ? fmt::format("{}: must be a folder of scene files", *folder)
-                         : "the scenes of the package were not found; name their folder");
+                         : "the scenes of the package were not found; give their folder");
   }
   Json all;
   all["folder"] = where.string();
@@ -155,8 +157,7 @@ void addScenesCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("scenes", kScenesDescription);
   const auto request = std::make_shared<ScenesRequest>();
   command.option("FOLDER", request->folder, "of scene files; default: the package's").type("");
-  command.option("--show", request->show, "print this scene as it is written, and list none")
-      .type("NAME");
+  command.option("--show", request->show, "print this scene's file, and list none").type("NAME");
   command.flag("--json", request->json, "print one JSON object");
   command.footer(kScenesFooter);
   command.callback([request, &status] {

@@ -18,23 +18,22 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kSimulateDescription =
-    "Runs a scene from its start, as fast as it goes, and writes what happens: a table of\n"
+    "Runs a scene from its start, as fast as possible, and writes the motion: a table of\n"
     "comma-separated values, an LCM log, an MCAP file, or with --json the final state.";
 
 constexpr const char* kSimulateFooter =
     "The table has a row at the start and one every sample up to and including the duration:\n"
     "  time, then for each system its coordinates, their rates (NAME_rate) and, for a rotor,\n"
-    "  whirl_radius (m) and whirl_phase (rad, how far the whirl lags the shaft's phase mark, "
+    "  whirl_radius (m) and whirl_phase (rad, lag of the whirl behind the shaft's phase mark, "
     "unwrapped).\n"
     "17 significant digits; nan where a value is undefined or a system has stopped. Same input,\n"
     "same build: same bytes. A file appears only when it is complete.\n"
     "\n"
-    "A run that goes on from a checkpoint has the rows behind it, byte for byte as in one that "
-    "was\n"
-    "never broken off, after one of where it begins.\n"
+    "A run resumed from a checkpoint has a row at its start and then the rows of an "
+    "uninterrupted\nrun, byte for byte.\n"
     "\n"
-    "A system that diverges is named on standard error with its last good state; the others go\n"
-    "on to the end, and the exit status is 1.\n"
+    "A system that diverges is reported on standard error with its last valid state; the "
+    "others\ncontinue to the end, and the exit status is 1.\n"
     "\n"
     "Examples:\n"
     "  twin simulate demo --sample 0.01 --output demo.csv\n"
@@ -90,8 +89,8 @@ void sayWhatIsMissing(const Scene& scene) {
   for (const ControllerSpec& controller : scene.controllers) {
     if (controller.type == "external") {
       complain(
-          fmt::format("twin: controllers.{}: is in another process and acts live only; here it "
-                      "gives 0\n",
+          fmt::format("twin: controllers.{}: runs in another process and acts only live; here its "
+                      "output is 0\n",
                       controller.name));
     }
   }
@@ -102,16 +101,16 @@ int simulate(const SimulationRequest& request) {
     extensionOf(*request.output);
   }
   if (request.measure && (!request.output || extensionOf(*request.output) == ".csv")) {
-    throw Refusal("--measure: needs --output FILE.lcmlog or FILE.mcap, where the measurements go");
+    throw Refusal("--measure: needs --output FILE.lcmlog or FILE.mcap for the measurements");
   }
   if (request.members && std::filesystem::path(*request.members).extension() != ".csv") {
     throw Refusal(fmt::format("--members: must end in .csv, found '{}'", *request.members));
   }
   if (request.members && request.members == request.output) {
-    throw Refusal("--members: must be another file than --output");
+    throw Refusal("--members: must differ from --output");
   }
   if (request.measure && request.resume) {
-    throw Refusal("--measure: goes with a run from the scene's start, found --resume");
+    throw Refusal("--measure: must not be given with --resume");
   }
   const SimulationPlan plan = planSimulation(request);
   sayWhatIsMissing(plan.scene);
@@ -157,22 +156,22 @@ void addSimulateCommand(const ProgramCommand& twin, int& status) {
       .type("FILE");
   command
       .option("--members", request->members,
-              "FILE.csv: of a system with a count, what each member was and came to")
+              "FILE.csv: of a system with a count, the parameters and results of each sample")
       .type("FILE");
   command
       .option("--measure", request->measure,
-              "the name of sensors of the scene, or `sensors` for all of them: what they\n"
-              "measure goes into the log too")
+              "the name of sensors of the scene, or `sensors` for all of them: their\nmeasurements "
+              "are written to the log too")
       .type("NAME");
   command
       .option("--checkpoint", request->checkpoint,
-              "a file, in which the run is saved every 5 s of wall time, at its end, and where "
-              "it is interrupted")
+              "file in which the run is saved every 5 s of wall time, at its end, and when it is "
+              "interrupted")
       .type("FILE");
   command
       .option("--resume", request->resume,
-              "a checkpoint of the same scene, to go on from to the bit up to --duration, which "
-              "counts from the scene's start")
+              "a checkpoint of the same scene: resume from it, bit-identical, up to --duration, "
+              "which counts from the scene's start")
       .type("FILE");
   command.option("--system", request->system, "show this system only").type("NAME");
   command.flag("--json", request->json, "print the final state as one JSON object");

@@ -46,10 +46,10 @@ void Simulation::goOnFrom(const std::string& path) {
   requireScene(from, checkpoint_.scene, path);
   if (from.live["changes"]) {
     throw Refusal(
-        fmt::format("{}: parameters were changed live; let simulation_node go on from it", path));
+        fmt::format("{}: parameters were changed live; resume it with simulation_node", path));
   }
   if (from.step >= plan_.steps) {
-    throw Refusal(fmt::format("--duration: must end behind step {}, where {} is, found {} steps",
+    throw Refusal(fmt::format("--duration: must be more than the {} steps of {}, found {} steps",
                               from.step, path, plan_.steps));
   }
   putBack(from, twin_, path);
@@ -135,19 +135,12 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
 
 /// At least a step, to one that is to be observed: the one that is due or one before it.
 std::int64_t Simulation::stepUnseen(std::int64_t due) {
-  const std::int64_t quiet = observer_.quietUntil(twin_);
+  const std::int64_t at_once = observer_.looks() ? 1 : kStepsAtOnce;
   std::int64_t i = twin_.stepCount();
-  std::int64_t next_look = std::max(quiet, i + 1);
   while (true) {
-    i += twin_.steps(std::min({due, next_look, i + kStepsAtOnce}) - i);
-    if (i == due || i == quiet || interrupted() || stopsNow()) {
+    i += twin_.steps(std::min(due - i, at_once));
+    if (i == due || interrupted() || stopsNow() || !observer_.look(twin_)) {
       return i;
-    }
-    if (i == next_look) {
-      next_look = observer_.look(twin_);
-      if (next_look == i) {
-        return i;
-      }
     }
   }
 }

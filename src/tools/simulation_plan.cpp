@@ -132,7 +132,7 @@ std::string SimulationPlan::asked() const {
   return fmt::format("--duration: {} s in {} steps{}{}",
                      static_cast<double>(steps) * scene.stepSeconds(), steps,
                      substeps > 1 ? fmt::format(", {} substeps each", substeps) : "",
-                     members > 0 ? fmt::format(", of {} members", members) : "");
+                     members > 0 ? fmt::format(", of {} samples", members) : "");
 }
 
 }  // namespace whirl_twin

@@ -24,18 +24,14 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kSpyDescription =
-    "Shows live what is on LCM: channels, rates, sizes, losses, and what was said last.";
+    "Shows live what is on LCM: channels, rates, sizes, losses and the newest message of each.";
 
 constexpr const char* kSpyFooter =
-    "In a terminal it is drawn anew five times a second, until Ctrl-C; into a file or a pipe a "
-    "table\n"
-    "goes every second. Of the twin's own types the newest message is shown field by field, of "
-    "others\n"
-    "the size; `lost` is what is missing by the steps. Rates are of the last second, those of "
-    "--json\n"
-    "and --once of all of the time. Another twin's fields: --lcm-prefix PLANT_. Exit status: 0 "
-    "something\n"
-    "came, 1 nothing, 2 bad input.\n"
+    "A terminal is refreshed five times a second, until Ctrl-C; to a file or a pipe a table is\n"
+    "written every second. Of the twin's own types the newest message is shown field by field, of\n"
+    "others the size; `lost` is the number of missing steps. Rates are those of the last second,\n"
+    "with --json and --once of the whole time. Another twin's fields: --lcm-prefix PLANT_. Exit\n"
+    "status: 0 something was received, 1 nothing, 2 bad input.\n"
     "\n"
     "Examples:\n"
     "  twin spy\n"
@@ -217,12 +213,11 @@ void addSpyCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("spy", kSpyDescription);
   const auto request = std::make_shared<SpyRequest>();
   command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
-  command.flag("--once", request->once, "one table, of one second or of --duration");
+  command.flag("--once", request->once, "print one table, of one second or of --duration");
   addChannelOption(command, request->channels);
   command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");
   command
-      .option("--lcm-prefix", request->lcm_prefix,
-              "what the channels of the twin begin with; default: TWIN_")
+      .option("--lcm-prefix", request->lcm_prefix, "prefix of the twin's channels; default: TWIN_")
       .type("PREFIX");
   command.flag("--json", request->json, "print one JSON object at the end");
   command.footer(kSpyFooter);

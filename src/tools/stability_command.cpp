@@ -17,14 +17,14 @@ constexpr const char* kStabilityDescription =
     "Stability level I of API 617: the logarithmic decrement of a rotor's slowest decaying forward "
     "whirl "
     "over\n"
-    "a cross-coupled stiffness at mid-span, and what its stages are taken to have.";
+    "a cross-coupled stiffness at mid-span, and the stiffness that API 617 expects of its stages.";
 
 constexpr const char* kStabilityFooter =
     "kxy = Q, kyx = -Q at the station nearest to the middle between the outermost bearings, or\n"
-    "--at another. A centrifugal stage has Q = 3 (P/w) / (D H) times the ratio of densities, an\n"
+    "--at another. A centrifugal stage has Q = 3 (P/w) / (D H) times the density ratio, an\n"
     "axial one 1.5 (P/w) / (D H); P its power, w the speed, D the impeller's diameter (the "
     "blades'\n"
-    "pitch diameter), H the least width of the discharge (the blades' height).\n"
+    "pitch diameter), H the smallest discharge width (the blade height).\n"
     "\n"
     "Examples:\n"
     "  twin stability friswell_rotor --plot level_one.svg\n"
@@ -84,20 +84,21 @@ void addStabilityCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("stability", kStabilityDescription);
   const auto request = std::make_shared<StabilityRequest>();
   addSceneOption(command, request->scene);
-  command.option("--system", request->system, "this rotor only").type("NAME");
+  command.option("--system", request->system, "only this rotor").type("NAME");
   command
       .option("--speed", request->level_one.speed,
-              "rad/s, of the shaft; default: the drive's highest")
+              "speed of the shaft [rad/s]; default: the drive's highest")
       .type("W");
-  command.option("--at", request->level_one.at, "where it acts; default: at mid-span").type("NAME");
+  command.option("--at", request->level_one.at, "station where it acts; default: at mid-span")
+      .type("NAME");
   command
       .option("--stage", request->centrifugal,
-              "W, m, m, -: power, diameter, width, ratio of densities of a centrifugal stage")
+              "W, m, m, -: power, diameter, width, density ratio of a centrifugal stage")
       .values(4)
       .type("P D H RATIO");
   command
       .option("--axial-stage", request->axial,
-              "W, m, m: power, pitch diameter, height of the blades of an axial stage")
+              "W, m, m: power, pitch diameter, blade height of an axial stage")
       .values(3)
       .type("P D H");
   command.option("--plot", request->plot, "the diagram, FILE.svg or FILE.png").type("FILE");

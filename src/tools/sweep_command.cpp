@@ -36,19 +36,18 @@ void writeHdf5Results(const Study&, const ResultFolder&, const Answers&) {
 #ifndef WHIRL_TWIN_NLOPT
 Optimum optimize(const Study&, const StepsChosen&, const std::atomic<bool>&,
                  const std::function<void(std::uint64_t)>&) {
-  throw RunFailure(
-      "optimize: this twin was built without NLopt: scripts/setup --studies, then build again");
+  throw RunFailure("optimize: built without NLopt: run scripts/setup --studies, then build again");
 }
 #endif
 
 namespace {
 
 constexpr const char* kSweepDescription =
-    "Runs a scene at every point of a study: tolerances, grids, designs, sensitivities. What is\n"
-    "measured goes into a folder; what the points say together is printed.";
+    "Runs a scene at every point of a study: tolerances, grids, designs, sensitivities. "
+    "The\nmeasures are written to a folder, their statistics are printed.";
 
 constexpr const char* kSweepFooter =
-    "STUDY is YAML (docs/studies.md tells all):\n"
+    "STUDY is YAML; its keys:\n"
     "  study: {scene: rotor.yaml, seed: 7}\n"
     "  vary:\n"
     "    rotor.stiffness: {uniform: [0.9e4, 1.1e4]}\n"
@@ -59,12 +58,11 @@ constexpr const char* kSweepFooter =
     "  run: {duration: 20.0}                 s; or analyze\n"
     "  measure: {peak: max(rotor.whirl.radius), critical: \"critical_speeds[0]\"}\n"
     "  require: {peak: \"< 2.0e-4\"}\n"
-    "In place of `design`, `optimize: {minimize: peak, over: [rotor.damping]}` looks for the "
-    "least\n"
-    "or the most of a measure within the ranges, among what meets `require`.\n"
-    "A point depends on the study and its number alone: workers, breaks and machines change no\n"
-    "byte. Stopped, the same command goes on. Points that fail are in failed.csv of the folder.\n"
-    "Among the processes of mpirun or srun blocks are dealt out as they are asked for.\n"
+    "In place of `design`, `optimize: {minimize: peak, over: [rotor.damping]}` finds the "
+    "minimum\nor maximum of a measure within the ranges, subject to `require`.\n"
+    "A point depends only on the study and its number: results do not depend on workers, "
+    "interruptions\nor machines. After an interruption the same command resumes. Failed points are "
+    "in failed.csv of\nthe folder. Processes of mpirun or srun get blocks of points on request.\n"
     "\n"
     "Examples:\n"
     "  twin sweep study.yaml --output results\n"
@@ -72,9 +70,9 @@ constexpr const char* kSweepFooter =
     "  twin sweep study.yaml --point 1234\n"
     "  mpirun -n 64 twin sweep study.yaml --output results\n"
     "  twin sweep study.yaml --output results --part 3/16       one of 16 jobs; then --merge\n"
-    "  twin sweep optimum.yaml                                  one that looks for an optimum\n"
-    "Exit status: 0 done, with points that failed or without; 1 it was stopped, cannot be written, "
-    "or\nall points failed; 2 a study or scene that cannot be meant.";
+    "  twin sweep optimum.yaml                                  an optimization\n"
+    "Exit status: 0 done, with or without failed points; 1 interrupted, cannot be written, or\nall "
+    "points failed; 2 an invalid study or scene.";
 
 struct SweepRequest {
   std::string study;
@@ -166,8 +164,9 @@ int runOptimization(const SweepRequest& request, const Study& study,
        {request.mixed, "--mixed"}}};
   for (const auto& [given, name] : for_points) {
     if (given) {
-      throw Refusal(fmt::format("{}: goes with a design; {} looks for an optimum, which is printed",
-                                name, study.source));
+      throw Refusal(fmt::format(
+          "{}: needs a study with a design; {} is an optimization, whose result is printed", name,
+          study.source));
     }
   }
   std::optional<ProgressBar> bar;
@@ -182,7 +181,7 @@ int runOptimization(const SweepRequest& request, const Study& study,
         });
     bar.reset();
     print(request, study, optimum);
-    return optimum.values.empty() ? failed("optimize: no point meets what is required") : kDone;
+    return optimum.values.empty() ? failed("optimize: no point satisfies the requirements") : kDone;
   } catch (const Interrupted&) {
     throw RunFailure("interrupted");
   }
@@ -231,12 +230,12 @@ int sweepAmongRanks(const SweepRequest& request, std::atomic<bool>& stop) {
       ranks.letTheFirstGoFirst();
       if (!std::filesystem::exists(*request.output + "/manifest.yaml")) {
         throw RunFailure(
-            fmt::format("{}: is not here: all ranks must see the same files", *request.output));
+            fmt::format("{}: not found: all ranks must see the same files", *request.output));
       }
     }
     const Study study = readStudy(request.study);
     if (study.optimization) {
-      throw Refusal(study.source + ": looks for an optimum, in one process: without mpirun");
+      throw Refusal(study.source + ": an optimization must run in one process, without mpirun");
     }
     const ResultFolder folder(*request.output, study, request.mixed);
     const unsigned workers = std::max(1U, request.workers);
@@ -258,8 +257,7 @@ int sweepAmongRanks(const SweepRequest& request, std::atomic<bool>& stop) {
   static_cast<void>(request);
   static_cast<void>(stop);
   throw Refusal(
-      "this twin cannot share a study among the processes of mpirun: it was built without MPI "
-      "(scripts/setup --studies, then build again)");
+      "built without MPI, needed for mpirun: run scripts/setup --studies, then build again");
 #endif
 }
 
@@ -277,7 +275,7 @@ int sweepStudy(const SweepRequest& request) {
   const Study study = readStudy(request.study);
   if (study.optimization) {
     if (ranksStarted() > 1) {
-      throw Refusal(study.source + ": looks for an optimum, in one process: without mpirun");
+      throw Refusal(study.source + ": an optimization must run in one process, without mpirun");
     }
     return runOptimization(request, study, stop);
   }
@@ -320,20 +318,18 @@ int sweepStudy(const SweepRequest& request) {
 void addSweepCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("sweep", kSweepDescription);
   const auto request = std::make_shared<SweepRequest>();
-  command.option("STUDY", request->study, "what varies, is run and is measured")
-      .required()
-      .type("");
-  command.option("--output", request->output, "the folder of the results, made if need be")
+  command.option("STUDY", request->study, "the study (YAML)").required().type("");
+  command.option("--output", request->output, "folder of the results, created if missing")
       .type("FOLDER");
   command.option("--point", request->point, "run this point alone, from 0, and print it").type("I");
-  command.option("--workers", request->workers, "threads; default: one a core, or one a rank")
+  command.option("--workers", request->workers, "threads; default: one per core, or one per rank")
       .type("N");
-  command.option("--part", request->part, "run every N-th block, from the I-th of them on")
+  command.option("--part", request->part, "run every N-th block, starting with the I-th")
       .type("I/N");
-  command.flag("--merge", request->merge, "run nothing: put together what parts have run");
-  command.flag("--status", request->status, "run nothing: tell how far it has come");
+  command.flag("--merge", request->merge, "run nothing: merge the results of the parts");
+  command.flag("--status", request->status, "run nothing: print the progress");
   command.flag("--mixed", request->mixed,
-               "go on with results of another version, compiler or processor");
+               "resume results of another version, compiler or processor");
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
   command.footer(kSweepFooter);

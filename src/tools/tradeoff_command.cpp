@@ -22,15 +22,17 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kTradeoffDescription =
-    "What every method costs on this machine and what it gets wrong, at the scene's step, at\n"
-    "multiples and at parts of it.";
+    "Cost of every integrator on this machine and its error, at the scene's step, at multiples "
+    "and\n"
+    "at fractions of it.";
 
 constexpr const char* kTradeoffFooter =
-    "Errors are the largest over the duration against a run whose own error is known: positions\n"
-    "and whirl radius in parts of the largest, phase in rad, energy in parts of the largest.\n"
-    "drift: of the energy audit. A setting is recommended only if every finer step of its method\n"
-    "keeps the tolerance as well. Costs are medians of seven interleaved rounds, with their "
-    "spread.\n"
+    "Errors are the largest over the duration against a reference run of known error: "
+    "positions,\nwhirl radius and energy relative to their largest value, phase in rad.\n"
+    "drift: of the energy balance. A setting is recommended only if every finer step of its "
+    "method\n"
+    "is within the tolerance as well. Costs are medians of seven interleaved rounds, with their "
+    "range.\n"
     "\n"
     "Examples:\n"
     "  twin tradeoff demo --plot tradeoff.svg\n"
@@ -68,9 +70,10 @@ std::int64_t horizonOf(const Scene& one) {
   const double horizon = 1.0e9 * spec.horizon;
   if (!(horizon >= static_cast<double>(one.step) &&
         horizon <= static_cast<double>(kLongestHorizon))) {
-    throw Refusal(fmt::format(
-        "{}: its horizon, {:g} s, is no duration for this; --duration: must be from {} to {}",
-        spec.name, spec.horizon, inSeconds(one.step), inSeconds(kLongestHorizon)));
+    throw Refusal(
+        fmt::format("{}: the horizon, {:g} s, is outside the range of --duration; --duration: must "
+                    "be from {} to {}",
+                    spec.name, spec.horizon, inSeconds(one.step), inSeconds(kLongestHorizon)));
   }
   return static_cast<std::int64_t>(horizon);
 }
@@ -131,10 +134,9 @@ void addTradeoffCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("tradeoff", kTradeoffDescription);
   const auto request = std::make_shared<TradeoffRequest>();
   addSceneOption(command, request->scene);
-  command.option("--system", request->system, "this system only").type("NAME");
+  command.option("--system", request->system, "only this system").type("NAME");
   command
-      .option("--duration", request->duration,
-              "seconds of simulated time; default: the system's horizon")
+      .option("--duration", request->duration, "simulated time [s]; default: the system's horizon")
       .type("S");
   command.option("--plot", request->plot, "a work-precision plot, FILE.svg or FILE.png")
       .type("FILE");

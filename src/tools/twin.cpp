@@ -25,16 +25,16 @@ namespace {
 
 constexpr const char* kTwinDescription =
     "A digital twin of whirling rotors and pendulums, from a scene file.\n"
-    "Check a scene, run it, judge its stability, look into recorded logs.";
+    "Check a scene, run it, analyse its stability, inspect recorded logs.";
 
 constexpr const char* kTwinFooter =
     "First steps:\n"
-    "  twin check demo           is the scene sound, and what will be modelled\n"
+    "  twin check demo           checks the scene and prints what is modelled\n"
     "  twin analyze demo         equilibria, frequencies, stability, criticals\n"
     "  twin simulate demo --sample 0.01 --output demo.csv\n"
     "  twin plot demo            its systems and their motions, as pictures\n"
     "  twin routh 1 2 3 4        is s^3 + 2 s^2 + 3 s + 4 stable\n"
-    "`twin COMMAND --help` tells more. Everything is in SI units: m, kg, s, rad, N.\n"
+    "`twin COMMAND --help` prints more. All values are in SI units: m, kg, s, rad, N.\n"
     "\n"
     "Results go to standard output, messages to standard error.\n"
     "Exit status: 0 done, 1 the run failed (diverged, a file cannot be written), 2 bad input.";
@@ -70,7 +70,7 @@ void explain(const CLI::App& twin, const CLI::ParseError& error) {
       what = fmt::format("unknown option '{}'; did you mean '{}'?", rest, near);
     }
   }
-  complain(fmt::format("{}: {}\n`{} --help` tells how it is used.\n", name, what, name));
+  complain(fmt::format("{}: {}\n`{} --help` prints its usage.\n", name, what, name));
 }
 
 /// A command that does not exist, said before CLI11 takes it for a stray argument.

@@ -31,7 +31,7 @@ std::vector<std::string> ValidityWatch::look(const Observer& observer) {
       const auto [breach, first] = breaches_[i].try_emplace(c.name, Breach{c, at.time});
       if (first) {
         warnings.push_back(
-            fmt::format("{}: warning: from t = {:.9g} s its equations do not hold: {}",
+            fmt::format("{}: warning: from t = {:.9g} s the equations are not valid: {}",
                         system.spec.name, at.time, brokenText({c}, Margins::kShown)));
       } else if (c.margin < breach->second.condition.margin) {
         breach->second.condition = c;

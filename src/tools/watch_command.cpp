@@ -29,13 +29,11 @@ constexpr const char* kWatchDescription =
     "Watches a running twin in the terminal, by LCM: its loop, its systems, its alarms.";
 
 constexpr const char* kWatchFooter =
-    "It refreshes a terminal five times a second, until Ctrl-C; into a file or a pipe it writes "
-    "every\n"
-    "second. It knows all active alerts within five seconds. The vibration of a rotor is its "
-    "amplitude over\n"
-    "the last revolution, without sag, that alarms go by. Exit status: 0 a twin was heard, 1 "
-    "none, 2 bad\n"
-    "input.\n"
+    "A terminal is refreshed five times a second, until Ctrl-C; to a file or a pipe a table is\n"
+    "written every second. All active alerts are known within five seconds. The vibration of a "
+    "rotor\n"
+    "is the 0-peak amplitude over the last revolution, without sag, as the alarms use it. Exit\n"
+    "status: 0 messages of a twin were received, 1 none, 2 bad input.\n"
     "\n"
     "Examples:\n"
     "  twin watch\n"
@@ -69,7 +67,7 @@ struct Heard {
   std::string silence(const char* who) const {
     constexpr double kPatience = 3.0;  // s
     return secondsSince(at) > kPatience
-               ? fmt::format("{} is silent for {:.0f} s", who, secondsSince(at))
+               ? fmt::format("no message from {} for {:.0f} s", who, secondsSince(at))
                : "";
   }
 };
@@ -89,7 +87,7 @@ std::string systemLine(const System& system) {
     say(fmt::format("speed {:.2f} rad/s ({:.1f} rpm)", system.whirl->speed,
                     system.whirl->speed / kRpm));
     if (std::isfinite(system.vibration)) {
-      say(fmt::format("vibration {:.1f} um", 1.0e6 * system.vibration));
+      say(fmt::format("vibration {:.1f} um 0-peak", 1.0e6 * system.vibration));
     }
   }
   if (system.pendulum) {
@@ -178,11 +176,11 @@ class Watch {
 
   std::vector<std::string> lines() const {
     if (!heard()) {
-      return {fmt::format("nothing heard of {}* on {}", request_.lcm_prefix, request_.url)};
+      return {fmt::format("no message received on {}* at {}", request_.lcm_prefix, request_.url)};
     }
     std::vector<std::string> lines{fmt::format("{:.3f} s", time_)};
     if (const std::string others = runs_.duplicate(wallTime()); !others.empty()) {
-      lines.push_back(fmt::format("{}: {} messages of others are left out",
+      lines.push_back(fmt::format("{}: {} messages of other twins ignored",
                                   printable(others, others.size()), runs_.ofOthers()));
     }
     addLoop(lines);
@@ -205,16 +203,18 @@ class Watch {
                                                  : "running",
                                 1.0e3 * loop.step_size, loop.policy, loop.priority,
                                 loop.achieved_factor));
-    lines.push_back(fmt::format(
-        "  woken late p99 {:.0f} us, at most {:.0f} us; a step takes p99 {:.0f} us, at most {:.0f} "
-        "us",
-        1.0e6 * loop.wakeup_latency_p99, 1.0e6 * loop.wakeup_latency_max,
-        1.0e6 * loop.execution_p99, 1.0e6 * loop.execution_max));
-    lines.push_back(fmt::format(
-        "  {} overruns ({} woken late), {} steps skipped, {} states not published, {} not sent on "
-        "LCM, {} lost by subscribers",
-        loop.overruns, loop.late_wakeups, loop.skipped_steps, loop.dropped_snapshots,
-        loop.lcm_failed, loop.ros_lost));
+    lines.push_back(
+        fmt::format("  wake-up latency p99 {:.0f} us, at most {:.0f} us; a step takes p99 {:.0f} "
+                    "us, at most {:.0f} "
+                    "us",
+                    1.0e6 * loop.wakeup_latency_p99, 1.0e6 * loop.wakeup_latency_max,
+                    1.0e6 * loop.execution_p99, 1.0e6 * loop.execution_max));
+    lines.push_back(
+        fmt::format("  {} overruns ({} by late wake-up), {} steps skipped, {} states not "
+                    "published, {} not sent on "
+                    "LCM, {} lost by subscribers",
+                    loop.overruns, loop.late_wakeups, loop.skipped_steps, loop.dropped_snapshots,
+                    loop.lcm_failed, loop.ros_lost));
     if (const std::string slowest = slowestPart(loop); !slowest.empty()) {
       lines.push_back("  slowest in a step: " + slowest);
     }
@@ -230,19 +230,19 @@ class Watch {
 
   void addMonitor(std::vector<std::string>& lines) const {
     if (!monitor_.newest) {
-      lines.push_back("monitor: none heard");
+      lines.push_back("monitor: no message received");
       return;
     }
     const state::MonitorStatus& monitor = *monitor_.newest;
     const std::string silence = monitor_.silence("the monitor");
     lines.push_back(
         silence.empty()
-            ? fmt::format("monitor: {} alerts stand, {} of them DANGER; {:.1f} % of a core",
+            ? fmt::format("monitor: {} active alerts, {} of them DANGER; {:.1f} % of a core",
                           monitor.alerts, monitor.dangers, 100.0 * monitor.load)
-            : "monitor: " + silence + ", nothing is being watched");
+            : "monitor: " + silence + ", nothing is being monitored");
     for (std::size_t i = 0; i < monitor.system.size(); ++i) {
       if (monitor.inhibited[i] > 0.0) {
-        lines.push_back(fmt::format("  alerts of {} are inhibited for {:.0f} s yet",
+        lines.push_back(fmt::format("  alerts of {} are inhibited for another {:.0f} s",
                                     monitor.system[i], monitor.inhibited[i]));
       }
     }
@@ -310,8 +310,7 @@ void addWatchCommand(const ProgramCommand& twin, int& status) {
   command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
   command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");
   command
-      .option("--lcm-prefix", request->lcm_prefix,
-              "what the channels of the twin begin with; default: TWIN_")
+      .option("--lcm-prefix", request->lcm_prefix, "prefix of the twin's channels; default: TWIN_")
       .type("PREFIX");
   command.flag("--json", request->json, "print one JSON object at the end");
   command.footer(kWatchFooter);

@@ -138,7 +138,7 @@ class BagFill : public FieldVisit<BagFill<State>> {
       to = static_cast<Value>(from.whole[i]);
       return;
     }
-    throw RejectedMessage(fmt::format("{}: of another type than the twin's", name));
+    throw RejectedMessage(fmt::format("{}: the type differs from the twin's", name));
   }
 
   const RosValues& values_;
@@ -204,7 +204,8 @@ Message BagDecoder::decode(const BagMessage& message) {
       State::fields(fill);
       const State state = fromLcm<State>(of_lcm);
       if (topicOf(state) != topic_) {
-        throw RejectedMessage(fmt::format("a message of topic {} stands here", topicOf(state)));
+        throw RejectedMessage(
+            fmt::format("expected a message of another topic, found one of {}", topicOf(state)));
       }
       decoded = state;
     }

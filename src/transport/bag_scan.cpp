@@ -83,7 +83,7 @@ struct BagScan::Record {
                                     std::string& why) {
     Record record;
     if (left < 8) {
-      why = fmt::format("a record of which {} bytes are there", left);
+      why = fmt::format("a truncated record of {} bytes", left);
       return std::nullopt;
     }
     const std::uint32_t length = littleEndian32(bytes);
@@ -120,10 +120,10 @@ bool BagScan::isBag(const std::string& path) {
 BagScan::BagScan(const std::string& path) : file_(path) {
   if (file_.size() < kBagMagic.size() ||
       !std::equal(kBagMagic.begin(), kBagMagic.end(), file_.at(0, kBagMagic.size()))) {
-    throw Refusal(fmt::format(
-        "{}: expected a rosbag of version 2.0 ('#ROSBAG V2.0' and a new line), found another "
-        "beginning in {} bytes",
-        path, file_.size()));
+    throw Refusal(
+        fmt::format("{}: must be a rosbag of version 2.0 ('#ROSBAG V2.0' and a new line), found "
+                    "another header in {} bytes",
+                    path, file_.size()));
   }
   at_ = kBagMagic.size();
   std::string why;
@@ -131,7 +131,7 @@ BagScan::BagScan(const std::string& path) : file_(path) {
   const auto first = Record::read(file_.at(at_, std::min(left, kMaxHeader + 8)),
                                   std::min(left, kMaxHeader + 8), why);
   if (first && first->op == kBagHeader && !fieldText(first->fields, "encryptor").empty()) {
-    throw Refusal(fmt::format("{}: expected a bag that is not encrypted, found one by {}", path,
+    throw Refusal(fmt::format("{}: must not be encrypted, found a bag encrypted by {}", path,
                               fieldText(first->fields, "encryptor")));
   }
   readIndex(first);
@@ -249,7 +249,7 @@ bool BagScan::take(const Record& record, const std::uint8_t* data, BagMessage& m
   const auto connection = id ? connections_.find(*id) : connections_.end();
   if (connection == connections_.end() || time.size() != 8) {
     throw Damage{chunk_at_ > 0 ? chunk_offset_ : at_ - record.size - record.header,
-                 "a message of a connection that is not known"};
+                 "a message of an unknown connection"};
   }
   message.time =
       littleEndian32(time.data()) * std::int64_t{1'000'000'000} + littleEndian32(time.data() + 4);

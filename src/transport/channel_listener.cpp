@@ -91,7 +91,7 @@ ChannelListener::ChannelListener(const std::string& url, const std::string& chan
     if (socket_ >= 0) {
       close(socket_);
     }
-    throw LcmNotAvailable(fmt::format("{} cannot be heard at '{}': {}", channel, url, why));
+    throw LcmNotAvailable(fmt::format("{} cannot be received at '{}': {}", channel, url, why));
   }
 }
 

@@ -15,7 +15,7 @@ ChannelTap::ChannelTap(std::shared_ptr<lcm::LCM> lcm, const std::string& pattern
       subscription_(
           lcm_subscribe(lcm_->getUnderlyingLCM(), pattern.c_str(), &ChannelTap::take, this)) {
   if (subscription_ == nullptr) {
-    throw LcmNotAvailable(fmt::format("LCM cannot receive {} (is multicast on?)", pattern));
+    throw LcmNotAvailable(fmt::format("LCM cannot receive {} (is multicast enabled?)", pattern));
   }
   lcm_subscription_set_queue_capacity(subscription_, most_waiting);
 }

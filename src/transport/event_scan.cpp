@@ -58,7 +58,7 @@ EventScan::Found EventScan::next(RawEvent& event) {
         fmt::format("an event of {} bytes, but the file ends after {}", length, left));
   }
   if (length < left && !syncAt(at_ + length)) {
-    return skipDamage(fmt::format("an event of {} bytes that no other event follows", length));
+    return skipDamage(fmt::format("an event of {} bytes without a following event", length));
   }
   const bool readable = event.size <= kMaxPayload;
   const std::uint8_t* bytes = file_.at(at_, readable ? length : payload);

@@ -26,7 +26,7 @@ FileWindow::FileWindow(const std::string& path)
   }
   if (!S_ISREG(status.st_mode)) {
     ::close(file_);
-    throw Refusal(fmt::format("{}: expected a file, found {}", path,
+    throw Refusal(fmt::format("{}: must be a file, found {}", path,
                               S_ISDIR(status.st_mode) ? "a directory" : "a device"));
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
@@ -51,7 +51,7 @@ const std::uint8_t* FileWindow::at(std::uint64_t offset, std::size_t length) {
     if (got <= 0) {
       window_.clear();
       throw Refusal(fmt::format("{}: cannot be read at byte {}: {}", path_, offset + filled,
-                                got < 0 ? std::strerror(errno) : "the file has become shorter"));
+                                got < 0 ? std::strerror(errno) : "the file became shorter"));
     }
     filled += static_cast<std::size_t>(got);
   }

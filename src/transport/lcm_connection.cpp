@@ -15,10 +15,9 @@ std::shared_ptr<lcm::LCM> openLcm(const std::string& url) {
     const bool multicast = url.compare(0, 5, "udpm:") == 0;
     throw LcmNotAvailable(fmt::format(
         "lcm_url: LCM cannot be opened at '{}'{}", url,
-        multicast
-            ? " (is there a route for multicast? On one machine: ip link set lo multicast on; "
-              "ip route add 224.0.0.0/4 dev lo)"
-            : fmt::format("; expected a url such as {}", kDefaultLcmUrl)));
+        multicast ? " (check the multicast route; on one machine: ip link set lo multicast on; "
+                    "ip route add 224.0.0.0/4 dev lo)"
+                  : fmt::format("; must be a URL such as {}", kDefaultLcmUrl)));
   }
   return lcm;
 }

@@ -64,8 +64,8 @@ Message decodeEvent(const std::string& channel, const void* data, std::size_t si
     if (parsed && parsed->kind == &State::kKind) {
       const State state = decode<State>(data, size);
       if (channelOf(state, prefix) != channel) {
-        throw RejectedMessage(
-            fmt::format("a message of channel {} arrived here", channelOf(state, prefix)));
+        throw RejectedMessage(fmt::format("expected a message of another channel, found one of {}",
+                                          channelOf(state, prefix)));
       }
       decoded = state;
     }

@@ -149,7 +149,7 @@ void LogJudge::take(const RawEvent& event) {
       }
       takeState(event, trace);
     } else if (event.data != nullptr && hasTwinFingerprint(event.data, event.size)) {
-      throw RejectedMessage("a message of a twin on a channel that is not its own");
+      throw RejectedMessage("a message of a twin on the wrong channel");
     }
   } catch (const RejectedMessage& why) {
     ++trace.summary.rejected;

@@ -27,7 +27,7 @@ LcmReceiver::LcmReceiver(std::shared_ptr<lcm::LCM> lcm, const Kinds& kinds, Hand
   subscription_ =
       lcm_subscribe(lcm_->getUnderlyingLCM(), pattern.c_str(), &LcmReceiver::take, this);
   if (subscription_ == nullptr) {
-    throw LcmNotAvailable(fmt::format("LCM cannot receive {} (is multicast on?)", pattern));
+    throw LcmNotAvailable(fmt::format("LCM cannot receive {} (is multicast enabled?)", pattern));
   }
   lcm_subscription_set_queue_capacity(subscription_, kMostWaiting);
 }

@@ -22,7 +22,7 @@ LcmRecorder::LcmRecorder(std::shared_ptr<lcm::LCM> lcm, const std::string& patte
   subscription_ =
       lcm_subscribe(lcm_->getUnderlyingLCM(), pattern.c_str(), &LcmRecorder::take, this);
   if (subscription_ == nullptr) {
-    throw LcmNotAvailable(fmt::format("LCM cannot receive {} (is multicast on?)", pattern));
+    throw LcmNotAvailable(fmt::format("LCM cannot receive {} (is multicast enabled?)", pattern));
   }
   lcm_subscription_set_queue_capacity(subscription_, 0);
 }

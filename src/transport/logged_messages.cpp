@@ -141,7 +141,7 @@ LoggedMessages readBag(const std::string& path, const std::string& prefix, const
         tally.message(message.time / kMicrosecond, [&]() -> Message {
           std::optional<BagDecoder>& decoder = decoders.of(message.connection);
           if (!decoder) {
-            throw RejectedMessage("a definition that cannot be read");
+            throw RejectedMessage("a message definition that cannot be read");
           }
           return decoder->decode(message);
         });
@@ -171,9 +171,8 @@ LoggedMessages readLoggedMessages(const std::string& path, const std::string& pr
 }
 
 std::string outOfOrder(const LoggedMessages& log) {
-  return fmt::format(
-      "{} of {} messages lie after a later one: taken in the order of their recorded times",
-      log.out_of_order, log.taken + log.rejected);
+  return fmt::format("{} of {} messages are after a later one: sorted by their recorded times",
+                     log.out_of_order, log.taken + log.rejected);
 }
 
 std::string foundElsewhere(const LoggedMessages& log) {

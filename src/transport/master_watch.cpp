@@ -108,7 +108,7 @@ void MasterWatch::look() {
   XmlRpc::XmlRpcValue state;
   if (!ask("getSystemState", {}, state)) {
     if (answered_) {
-      ROS_WARN("the ROS master at %s does not answer: nobody new finds this node until it is back",
+      ROS_WARN("the ROS master at %s does not answer: new nodes cannot connect until it is back",
                ros::master::getURI().c_str());
     }
     answered_ = false;
@@ -234,10 +234,11 @@ void MasterWatch::reportRivals(const Registered& now) {
   std::string trouble;
   if (!rivals.empty()) {
     trouble = fmt::format(
-        "{} publishes on topics of this node, such as {}: two twins in one namespace",
+        "duplicate publisher: {} publishes on topics of this node, such as {}: two twins in one "
+        "namespace",
         printable(fmt::format("{}", fmt::join(rivals, ", ")), kLongestTrouble), printable(example));
     if (rivals != rivals_) {
-      ROS_ERROR("%s; start one of them in a namespace of its own", trouble.c_str());
+      ROS_ERROR("%s; start one of them in another namespace", trouble.c_str());
     }
   }
   rivals_ = rivals;
@@ -252,10 +253,10 @@ void MasterWatch::reportClocks(const Registered& now) {
       ros::Time::isSimTime() && now.clocks.empty() ? looks_without_clock_ + 1 : 0;
   if (looks_without_clock_ >= kPatience) {
     trouble =
-        "/use_sim_time is set and nobody publishes /clock: stamps are wall-clock time (rosparam "
+        "/use_sim_time is set without a publisher of /clock: stamps are wall-clock time (rosparam "
         "delete /use_sim_time, or clock:=true)";
   } else if (now.clocks.size() > 1) {
-    trouble = fmt::format("{} publish /clock: expected one, time goes back and forth",
+    trouble = fmt::format("/clock must have one publisher, found {}: time jumps back and forth",
                           fmt::join(now.clocks, " and "));
   }
   const std::lock_guard<std::mutex> lock(mutex_);

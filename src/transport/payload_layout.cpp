@@ -43,7 +43,7 @@ class PayloadWalk {
     const auto* const begin = data_ + at_;
     skip(static_cast<std::size_t>(length));
     if (std::find(begin, data_ + at_, 0) != data_ + at_ - 1) {
-      throw RejectedMessage(fmt::format("payload: a string not closed at byte {}", at_ - 1));
+      throw RejectedMessage(fmt::format("payload: a string not terminated at byte {}", at_ - 1));
     }
   }
 

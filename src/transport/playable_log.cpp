@@ -24,7 +24,7 @@ PlayableLog::PlayableLog(const std::string& path, std::string prefix, Selects se
                          bool commands)
     : scan_(path), prefix_(std::move(prefix)), selects_(std::move(selects)), commands_(commands) {
   if (BagScan::isBag(path)) {
-    throw Refusal(path + ": expected an LCM log, found a rosbag: `rosbag play` plays it");
+    throw Refusal(path + ": must be an LCM log, found a rosbag; use `rosbag play`");
   }
   if (const auto first = firstFrom(0)) {
     begin_ = end_ = first->timestamp;
@@ -126,7 +126,7 @@ bool PlayableLog::isRepeated(const RawEvent& event, std::int64_t step) {
   }
   if (passed == 0) {
     ++played_.repeated;
-    name(event.offset, fmt::format("{}: step {} again", event.channel, step));
+    name(event.offset, fmt::format("{}: step {} repeated", event.channel, step));
     return true;
   }
   if (series.stride > 0 && passed >= 2 * series.stride) {

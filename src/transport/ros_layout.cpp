@@ -95,7 +95,7 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
       {"duration", {Kind::kDuration, 8}}, {"string", {Kind::kText, 4}}};
   if (depth > kDeepestMessage) {
     throw RejectedMessage(
-        fmt::format("definition: messages in messages more than {} deep", kDeepestMessage));
+        fmt::format("definition: must be nested at most {} messages deep", kDeepestMessage));
   }
   std::vector<Field> fields;
   eachLine(text, [&](std::string_view line) {
@@ -120,7 +120,8 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
       const bool is_count =
           parsed.ec == std::errc() && parsed.ptr == end && field.count <= kLongestArray;
       if (type.back() != ']' || !(length.empty() || (is_count && field.count > 0))) {
-        throw RejectedMessage("definition: an array of no length: " + printable(std::string(line)));
+        throw RejectedMessage("definition: an array without a length: " +
+                              printable(std::string(line)));
       }
       type = type.substr(0, bracket);
     }
@@ -147,14 +148,14 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
                                 name.substr(name.find('/') + 1) == full && !name.empty());
       });
       if (found == types.end()) {
-        throw RejectedMessage("definition: no message " + printable(full));
+        throw RejectedMessage("definition: unknown message " + printable(full));
       }
       const std::string of = found->first.substr(0, found->first.find('/') + 1);
       field.fields = fieldsOf(found->second, of, field.name + ".", types, depth + 1);
       field.least = leastOf(field.fields);
     }
     if (field.is_array && field.least == 0) {
-      throw RejectedMessage("definition: an array of nothing: " + printable(std::string(line)));
+      throw RejectedMessage("definition: an array without a type: " + printable(std::string(line)));
     }
     fields.push_back(std::move(field));
   });
@@ -254,7 +255,7 @@ class RosLayout::Reader {
     return here;
   }
   static RejectedMessage tooShort(const Field& field) {
-    return RejectedMessage(field.name + ": the message ends before");
+    return RejectedMessage(field.name + ": missing, the message is too short");
   }
 
   const std::uint8_t* data_;

@@ -66,7 +66,7 @@ XmlRpc::XmlRpcValue scalarOf(const YAML::Node& node) {
 
 XmlRpc::XmlRpcValue fromYaml(const YAML::Node& node, int depth, int& left) {
   if (depth > kDeepestParameter || --left < 0) {
-    throw Refusal("deeper or larger than any scene");
+    throw Refusal("exceeds the depth or size of a scene");
   }
   XmlRpc::XmlRpcValue value;
   if (node.IsMap()) {
@@ -99,9 +99,9 @@ ParameterTree parameterTree(const ros::NodeHandle& node, const std::string& name
       node.param<std::string>(name + "_file", "parameter " + node.resolveName(name));
   XmlRpc::XmlRpcValue tree;
   if (!node.getParam(name, tree)) {
-    throw Refusal(fmt::format(
-        "{}: no {} there; load one with <rosparam command=\"load\" file=\"...\" ns=\"{}\"/>",
-        source, name, node.resolveName(name)));
+    throw Refusal(
+        fmt::format("{}: missing; load {} with <rosparam command=\"load\" file=\"...\" ns=\"{}\"/>",
+                    source, name, node.resolveName(name)));
   }
   return {toYaml(tree), source};
 }

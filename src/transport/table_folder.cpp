@@ -86,7 +86,7 @@ void TableFolder::write(const RecordedTopic& topic, std::int64_t time, const std
   constexpr std::int64_t kSecond = 1'000'000'000;  // ns
   const auto known = shapes_.find(topic.tableKey());
   if (known == shapes_.end()) {
-    throw RejectedMessage("a definition that cannot be read");
+    throw RejectedMessage("a message definition that cannot be read");
   }
   const TableShape& shape = known->second;
   const RosValues values = shape.layout.read(data, size);

@@ -88,10 +88,9 @@ class TimeOrder {
     }
     bytes_ += sizeof(Held) + held.bytes.size();
     if (bytes_ > kMaxHeld) {
-      throw Refusal(fmt::format(
-          "its messages are out of order by so much that more than {} MiB would have to be held: "
-          "sort it by time first",
-          kMaxHeld >> 20));
+      throw Refusal(
+          fmt::format("sorting its messages needs more than {} MiB: sort the log by time first",
+                      kMaxHeld >> 20));
     }
     waiting_.push(std::move(held));
     while (!waiting_.empty() && lag(*newest_, waiting_.top().time) >= delay_) {

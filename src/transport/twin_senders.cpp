@@ -51,7 +51,7 @@ std::string TwinSenders::trouble(double now) const {
   std::vector<std::string> names;
   for (const auto& [run, at] : heard_) {
     if (now - at <= kMemory) {
-      names.push_back(run.second.empty() ? "one that does not tell its name" : run.second);
+      names.push_back(run.second.empty() ? "a publisher without a name" : run.second);
     }
   }
   return fmt::format("{} twins on {}: {}; {}", names.size(), where_, fmt::join(names, " and "),

@@ -18,11 +18,11 @@ namespace {
 constexpr std::size_t kPiece = 1 << 16;  // bytes made at a time
 
 [[maybe_unused]] std::string tooLongText(std::size_t most) {
-  return fmt::format("more than {} bytes without its compression", most);
+  return fmt::format("more than {} bytes uncompressed", most);
 }
 
 [[maybe_unused]] std::string without(const char* library) {
-  return fmt::format("this twin was built without {}: `scripts/setup`, then build again", library);
+  return fmt::format("built without {}: run `scripts/setup`, then build again", library);
 }
 
 #ifdef WHIRL_TWIN_BZ2
@@ -30,7 +30,7 @@ std::string unpackBz2(std::vector<std::uint8_t>& packed, std::size_t most,
                       std::vector<std::uint8_t>& out) {
   bz_stream stream{};
   if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) {
-    return "bz2: no memory";
+    return "bz2: out of memory";
   }
   stream.next_in = reinterpret_cast<char*>(packed.data());
   stream.avail_in = static_cast<unsigned>(packed.size());
@@ -43,11 +43,11 @@ std::string unpackBz2(std::vector<std::uint8_t>& packed, std::size_t most,
     status = BZ2_bzDecompress(&stream);
     out.resize(begin + kPiece - stream.avail_out);
     if (status != BZ_OK && status != BZ_STREAM_END) {
-      why = "bz2: damaged";
+      why = "bz2: corrupt";
     } else if (out.size() > most) {
       why = tooLongText(most);
     } else if (status == BZ_OK && stream.avail_in == 0 && stream.avail_out > 0) {
-      why = "bz2: ends too early";
+      why = "bz2: truncated";
     }
   }
   BZ2_bzDecompressEnd(&stream);
@@ -60,7 +60,7 @@ std::string unpackLz4(const std::vector<std::uint8_t>& packed, std::size_t most,
                       std::vector<std::uint8_t>& out) {
   LZ4F_dctx* context = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) != 0) {
-    return "lz4: no memory";
+    return "lz4: out of memory";
   }
   std::string why;
   std::size_t hint = 1, used = 0, made = kPiece;
@@ -74,13 +74,13 @@ std::string unpackLz4(const std::vector<std::uint8_t>& packed, std::size_t most,
     out.resize(begin + (damaged ? 0 : made));
     at += used;
     if (damaged) {
-      why = fmt::format("lz4: damaged ({})", LZ4F_getErrorName(hint));
+      why = fmt::format("lz4: corrupt ({})", LZ4F_getErrorName(hint));
     } else if (out.size() > most) {
       why = tooLongText(most);
     }
   }
   if (why.empty() && hint != 0) {
-    why = "lz4: ends too early";
+    why = "lz4: truncated";
   }
   LZ4F_freeDecompressionContext(context);
   return why;

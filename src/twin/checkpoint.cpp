@@ -76,21 +76,22 @@ void requireWhole(const std::string& bytes, std::size_t at, int format, const st
   unsigned long long sum = 0;
   const char* const end = promise.data() + promise.size();
   const auto first = std::from_chars(promise.data(), end, size);
-  const bool read = first.ec == std::errc() && first.ptr != end && *first.ptr == ' ' &&
-                    end - first.ptr == 1 + digits &&
-                    std::from_chars(first.ptr + 1, end, sum, 16).ptr == end;
+  const bool read =
+      first.ec == std::errc() && first.ptr != end &&
+      std::from_chars(first.ptr + 1, end, sum, 16).ec == std::errc() &&
+      promise == fmt::format("{} {:0{}x}", size, sum, digits);  // capitals are no hex of ours
   if (!read) {
-    refuse(source, "is damaged: its second line is not a size and a checksum");
+    refuse(source, "corrupt: the second line must be a size and a checksum");
   }
   if (bytes.size() - at != size) {
-    refuse(source, fmt::format("is torn: must have {} bytes behind its second line, found {}", size,
-                               bytes.size() - at));
+    refuse(source, fmt::format("truncated: must have {} bytes after its second line, found {}",
+                               size, bytes.size() - at));
   }
   const char* const rest = bytes.data() + at;
   const std::uint64_t found = format == kFormat ? std::uint64_t{crc32c(rest, bytes.size() - at)}
                                                 : fingerprint(rest, bytes.size() - at);
   if (found != sum) {
-    refuse(source, fmt::format("is damaged: must have the checksum {:0{}x}, found {:0{}x}", sum,
+    refuse(source, fmt::format("corrupt: must have the checksum {:0{}x}, found {:0{}x}", sum,
                                digits, found, digits));
   }
 }
@@ -98,9 +99,10 @@ void requireWhole(const std::string& bytes, std::size_t at, int format, const st
 void requireOrigin(const YAML::Node& head, const std::string& source) {
   const auto version = head["version"].as<std::string>();
   if (version != WHIRL_TWIN_VERSION) {
-    refuse(source, fmt::format("must be saved by whirl_twin {}, which is to go on with it, found "
-                               "one of whirl_twin {}",
-                               WHIRL_TWIN_VERSION, version));
+    refuse(source,
+           fmt::format(
+               "must be saved by whirl_twin {}, the version that resumes it, found whirl_twin {}",
+               WHIRL_TWIN_VERSION, version));
   }
   const auto other = head["machine"].as<std::string>();
   if (other != machine()) {
@@ -126,9 +128,8 @@ void put(const std::string& bytes, Whose& whose, const std::string& source) {
   StateImage image = StateImage::putting(bytes.data(), bytes.size());
   whose.exchange(image);
   if (!image.sound() || image.size() != bytes.size()) {
-    refuse(source,
-           fmt::format("must be saved by this build, found a state laid out otherwise ({} bytes)",
-                       bytes.size()));
+    refuse(source, fmt::format("must be saved by this build, found another state layout ({} bytes)",
+                               bytes.size()));
   }
 }
 
@@ -172,14 +173,14 @@ Checkpoint checkpointOf(const std::string& bytes, const std::string& source) {
       checkpoint.live.reset(head["live"]);
     }
     if (checkpoint.live.IsDefined() && !checkpoint.live.IsMap() && !checkpoint.live.IsNull()) {
-      refuse(source, "is damaged: what was changed live cannot be read");
+      refuse(source, "corrupt: the live changes cannot be read");
     }
     const auto size = head["twin"].as<std::size_t>();
     checkpoint.twin = bytes.substr(end + 1, size);
     checkpoint.observer = bytes.substr(std::min(end + 1 + size, bytes.size()));
     return checkpoint;
   } catch (const YAML::Exception&) {
-    refuse(source, "is damaged: what it says of itself cannot be read");
+    refuse(source, "corrupt: its header cannot be read");
   }
 }
 
@@ -222,7 +223,7 @@ void requireScene(const Checkpoint& checkpoint, const SceneLines& scene,
   if (differ > 0) {
     refuse(
         source,
-        fmt::format("was saved of another scene{}{}", told,
+        fmt::format("must be saved from the same scene{}{}", told,
                     differ > kMostTold ? fmt::format("\n  and {} more", differ - kMostTold) : ""));
   }
 }
@@ -231,7 +232,7 @@ std::string imageOf(Twin& twin) {
   std::string image;
   if (!takeImage(twin, image)) {
     throw Refusal(
-        "its state cannot be saved: a controller's law owns memory, and has no exchange() "
+        "its state cannot be saved: a control law owns memory, and has no exchange() "
         "(controllers/controller_entry.h)");
   }
   return image;
@@ -246,8 +247,8 @@ std::string imageOf(Observer& observer) {
 void putBack(const Checkpoint& checkpoint, Twin& twin, const std::string& source) {
   put(checkpoint.twin, twin, source);
   if (twin.stepCount() != checkpoint.step) {
-    refuse(source, fmt::format("is damaged: must be of step {}, found {}", checkpoint.step,
-                               twin.stepCount()));
+    refuse(source,
+           fmt::format("corrupt: must be of step {}, found {}", checkpoint.step, twin.stepCount()));
   }
 }
 

@@ -20,7 +20,7 @@ constexpr std::size_t kBuffer = 1U << 20U;
 }  // namespace
 
 void throwNotWritten(const std::string& path, int error) {
-  throw RunFailure(fmt::format("{}: cannot be written: {}; what was finished before is kept", path,
+  throw RunFailure(fmt::format("{}: cannot be written: {}; the previous file is kept", path,
                                std::strerror(error)));
 }
 

@@ -33,7 +33,7 @@ std::vector<EnsembleQuantity> quantitiesOf(const Dynamics& dynamics) {
 }
 
 Refusal refused(std::size_t member, const std::exception& error) {
-  return Refusal(fmt::format("member {}: {}", member, error.what()));
+  return Refusal(fmt::format("sample {}: {}", member, error.what()));
 }
 
 /// A parameter that is 0 in the scene and spread about it may switch a member to another form of
@@ -48,7 +48,7 @@ void requireSameKind(const Dynamics& given, const ModelSetup& setup, const Syste
     return all;
   };
   if (names(given) != names(*setup.dynamics) || given.isRotor() != setup.dynamics->isRotor()) {
-    throw Refusal("has other coordinates than the system as given");
+    throw Refusal("has other coordinates than the nominal system");
   }
   if (!canStepWith(setup, spec.drive.has_value(), integrator)) {
     throw Refusal(fmt::format("cannot be stepped with {}", integrator));

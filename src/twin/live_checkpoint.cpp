@@ -47,7 +47,7 @@ void resume(const Checkpoint& checkpoint, LiveTwin& twin, LiveParameters& parame
       paused = checkpoint.live["paused"].as<bool>();
     }
   } catch (const YAML::Exception&) {
-    throw Refusal(fmt::format("{}: is damaged: what was changed live cannot be read", source));
+    throw Refusal(fmt::format("{}: corrupt: the live changes cannot be read", source));
   } catch (const Refusal& error) {
     throw Refusal(fmt::format("{}: {}", source, error.what()));
   }

@@ -146,12 +146,12 @@ std::string LiveParameters::objectionTo(const ParameterRequest& request) const {
     return fmt::format("ramp: must be from 0 to {:g} s, found {}", kLongestRamp, request.ramp);
   }
   if (request.names.size() != request.values.size()) {
-    return fmt::format("must be one value a parameter, found {} parameters and {} values",
+    return fmt::format("must be one value per parameter, found {} parameters and {} values",
                        request.names.size(), request.values.size());
   }
   for (const std::string& name : request.names) {
     if (std::count(request.names.begin(), request.names.end(), name) > 1) {
-      return fmt::format("parameter: '{}' stands twice", name);
+      return fmt::format("parameter: duplicate '{}'", name);
     }
   }
   return "";
@@ -251,7 +251,7 @@ std::vector<std::string> LiveParameters::continueRamps() {
       ramps_.erase(std::remove_if(ramps_.begin(), ramps_.end(), over), ramps_.end());
     } catch (const std::exception& error) {
       ramps_.erase(std::remove_if(ramps_.begin(), ramps_.end(), of_this), ramps_.end());
-      given_up.push_back(fmt::format("a ramp is given up: {}", error.what()));
+      given_up.push_back(fmt::format("a ramp was aborted: {}", error.what()));
     }
   }
   return given_up;
@@ -277,7 +277,7 @@ std::string LiveParameters::objectionTo(std::size_t drive, const SpeedReach& rea
       const auto [low, high] = ensemble->steps().speeds();
       if (reach.lowest < low || reach.highest > high) {
         return fmt::format(
-            "speed: must be from {:g} to {:g} rad/s, which the ensemble of {} is prepared for, "
+            "speed: must be from {:g} to {:g} rad/s, the range prepared for the ensemble of {}, "
             "found {:g}",
             low, high, systems_[i]->spec.name, reach.lowest < low ? reach.lowest : reach.highest);
       }

@@ -17,7 +17,7 @@ namespace {
 std::pair<double, double> speedsOf(const YAML::Node& from, const YAML::Node& to) {
   const std::pair<double, double> speeds{from.as<double>(), to.as<double>()};
   if (!(std::fabs(speeds.first) <= kLargestSpeed) || !(std::fabs(speeds.second) <= kLargestSpeed)) {
-    throw YAML::Exception(from.Mark(), "no speed of a drive");
+    throw YAML::Exception(from.Mark(), "must be the speed of a drive");
   }
   return speeds;
 }
@@ -77,7 +77,7 @@ LiveParameters::Which LiveParameters::whichOf(const YAML::Node& name) const {
   const std::vector<std::string> known = names();
   const auto found = std::find(known.begin(), known.end(), name.as<std::string>());
   if (found == known.end()) {
-    throw YAML::Exception(name.Mark(), "neither a system nor a controller");
+    throw YAML::Exception(name.Mark(), "must be a system or a controller");
   }
   return static_cast<Which>(found - known.begin());
 }
@@ -92,13 +92,12 @@ void LiveParameters::resumeChange(const YAML::Node& saved) {
   set.names = saved["names"].as<std::vector<std::string>>();
   set.values = saved["values"].as<std::vector<double>>();
   if (set.values.size() != set.names.size() || generation <= 0) {
-    throw YAML::Exception(saved.Mark(), "not what was changed");
+    throw YAML::Exception(saved.Mark(), "must be a map of live changes");
   }
   if (isSystem(which)) {
     const SharedSystem system = twin_.twin().systems()[which]->with(set);
     if (!system) {
-      throw Refusal(
-          fmt::format("{} cannot have the parameters that it was saved with", set.system));
+      throw Refusal(fmt::format("the saved parameters of {} cannot be set", set.system));
     }
     std::unique_ptr<Stepper> stepper = twin_.twin().stepperOf(*system);
     for (const YAML::Node& range : saved["made_ready"]) {

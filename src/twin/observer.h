@@ -5,7 +5,7 @@
 //
 // observe() works out everything, for a step that somebody is told of. look() costs a few
 // nanoseconds and keeps what must not be missed between such steps: which way round the centre the
-// whirl goes, what a motor gives, that an error was found (where looks are put off, by then).
+// whirl goes, what a motor gives, that an error was found.
 // Phases are the same to the last bit whichever steps were observed, and from where a radius has
 // been 1e-9 of the largest one on but for whole turns; the energy residual is in parts of the
 // largest energy observed.
@@ -43,15 +43,11 @@ class Observer {
   /// known from a look, or energies have not been observed for mostPassed() steps.
   bool look(const double* record);
 
-  // Of a twin that this thread steps, whose commands are its own: without a record.
-
-  /// As look(record), at the step where the twin stands, which is no later than the last look said;
-  /// a system that has just stopped is the caller's to see. The step to be looked at next; the
-  /// present one: it has to be observed.
-  std::int64_t look(const Twin& now);
-  /// After observe(): up to this step, which is to be observed, steps need not be looked at; the
-  /// present one: they do.
-  std::int64_t quietUntil(const Twin& now);
+  /// Likewise, of a twin that this thread steps and whose commands are its own: without a record. A
+  /// system that has just stopped is the caller's to notice.
+  bool look(const Twin& now);
+  /// Every step has to be looked at; else none.
+  bool looks() const { return has_motors_ || !rotors_.empty(); }
   /// Steps from one that is observed to the next.
   std::int64_t mostPassed() const { return most_passed_; }
 
@@ -152,11 +148,7 @@ class Observer {
   std::vector<ControllerTrack> controller_tracks_;
   std::vector<std::vector<std::string>> stations_;  // names, as at the start
   std::vector<MotorTrack> motors_;                  // of each drive
-  struct LookedRotor {
-    std::size_t system;
-    bool foreseeable;  // its dynamics and its drive tell all that acts on it
-  };
-  std::vector<LookedRotor> rotors_;
+  std::vector<std::size_t> rotors_;
   std::vector<double> looked_errors_;  // of each system: sum, when last looked at
   std::vector<double> looked_;         // room for a record
   double fastest_ = 0.0;               // [rad/s], of the drives that are no motors

@@ -16,9 +16,6 @@ constexpr std::int64_t kMostPassed = 64;
 constexpr std::int64_t kMostPassedOfLinearRotors = 512;
 constexpr double kQuarterTurn = 0.5 * 3.14159265358979323846;
 
-/// Of rotors with more, a look is little beside a step.
-constexpr std::size_t kMostCoordinates = 16;
-
 bool isLinearRotor(const BuiltSystem& system) {
   return system.dynamics->isRotor() && system.dynamics->linear() &&
          system.integrator == "exponential";
@@ -31,8 +28,7 @@ void Observer::prepareLooks() {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const BuiltSystem& system = *twin_.systems()[i];
     if (isRotor(i)) {
-      rotors_.push_back({i, isLinearRotor(system) && system.spec.inputs.empty() &&
-                                system.spec.q.size() <= kMostCoordinates});
+      rotors_.push_back(i);
     }
     if (!isLinearRotor(system)) {
       most_passed_ = kMostPassed;
@@ -72,7 +68,7 @@ bool Observer::look(const double* record) {
     }
   }
   const double h = twin_.scene().stepSeconds();
-  for (const auto& [i, foreseeable] : rotors_) {
+  for (const std::size_t i : rotors_) {
     if (status(i) != StepStatus::kOk) {
       continue;
     }
@@ -88,58 +84,24 @@ bool Observer::look(const double* record) {
   return true;
 }
 
-std::int64_t Observer::look(const Twin& now) {
-  const std::int64_t step = now.stepCount();
+bool Observer::look(const Twin& now) {
   if (has_motors_) {
     now.write(looked_.data());
-    return look(looked_.data()) ? step + 1 : step;
+    return look(looked_.data());
   }
-  const double h = twin_.scene().stepSeconds();
-  const bool coarse = !(fastest_ * h < kQuarterTurn);
-  std::int64_t next = std::numeric_limits<std::int64_t>::max();
-  for (const auto& [i, foreseeable] : rotors_) {
-    FollowedWhirl& whirl = tracks_[i].whirl;
+  const bool coarse = !(fastest_ * twin_.scene().stepSeconds() < kQuarterTurn);
+  for (const std::size_t i : rotors_) {
     if (now.status(i) != StepStatus::kOk) {
       continue;
     }
-    if (step >= whirl.nextLook()) {
-      const Stepper& running = now.running(i);
-      const double* const q = looked_.data();
-      running.motion(looked_.data());
-      if (coarse || errorFound(i, running.errorSum()) || !whirl.follow(step, q)) {
-        return step;
-      }
-      if (foreseeable) {
-        whirl.putOff(*tracks_[i].dynamics, q, q + running.dof(),
-                     now.drive(twin_.systems()[i]->drive), h);
-      }
+    const Stepper& running = now.running(i);
+    running.motion(looked_.data());
+    if (coarse || errorFound(i, running.errorSum()) ||
+        !tracks_[i].whirl.follow(now.stepCount(), looked_.data())) {
+      return false;
     }
-    next = std::min(next, whirl.nextLook());
   }
-  return next;
-}
-
-std::int64_t Observer::quietUntil(const Twin& now) {
-  if (has_motors_) {
-    return step();
-  }
-  const double h = twin_.scene().stepSeconds();
-  std::int64_t quiet = std::numeric_limits<std::int64_t>::max();
-  for (const auto& [i, foreseeable] : rotors_) {
-    if (status(i) != StepStatus::kOk) {
-      continue;
-    }
-    const BuiltSystem& system = *twin_.systems()[i];
-    const Drive& drive = now.drive(system.drive);
-    FollowedWhirl& whirl = tracks_[i].whirl;
-    if (foreseeable && drive.constantFor(0.0)) {
-      const double lasts = std::min(drive.nextCorner(0.0) / h, 1.0e9);
-      whirl.findSteady(*tracks_[i].dynamics, coordinates(i), rates(i), shaftOf(i), h,
-                       static_cast<std::int64_t>(lasts), !(fastest_ * h < kQuarterTurn));
-    }
-    quiet = std::min(quiet, whirl.steadyUntil());
-  }
-  return quiet;
+  return true;
 }
 
 void Observer::followMotors(const double* record) {

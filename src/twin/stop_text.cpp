@@ -14,11 +14,11 @@ const char* describe(StepStatus status) {
     case StepStatus::kNotConverged:
       return "implicit step did not converge";
     case StepStatus::kOutOfRange:
-      return "its shaft runs at a speed that it was not prepared for";
+      return "the speed of its shaft is outside the prepared range";
     case StepStatus::kNoGap:
-      return "its shaft touches a bearing: no air gap or oil film is left";
+      return "its shaft touches a bearing: the air gap or oil film is 0";
     case StepStatus::kControllerLost:
-      return "its controller was lost";
+      return "its controller no longer answers";
     case StepStatus::kOk:
       break;
   }
@@ -45,7 +45,7 @@ std::string stopText(const BuiltSystem& system, const SystemView& view, const st
     values += fmt::format("{}{} = {:.6g} {}, {}_rate = {:.6g} {}/s", i == 0 ? "" : ", ", c.name,
                           view.q()[i], c.unit, c.name, view.v()[i], c.unit);
   }
-  return fmt::format("{}: stopped in step {} (t = {:.9g} s), {}; last good state: {}",
+  return fmt::format("{}: stopped in step {} (t = {:.9g} s), {}; last valid state: {}",
                      system.spec.name, step, time, why, values);
 }
 

@@ -12,7 +12,7 @@ double WhirlMotion::radius() const {
   return std::hypot(x, y);
 }
 
-void WhirlPhase::observe(const WhirlMotion& whirl, const ShaftMark& mark, Kept kept) {
+void WhirlPhase::observe(const WhirlMotion& whirl, const ShaftMark& mark) {
   const double radius = whirl.radius();
   if (largest_square_ > largest_radius_ * largest_radius_) {
     largest_radius_ = std::sqrt(largest_square_);
@@ -24,13 +24,8 @@ void WhirlPhase::observe(const WhirlMotion& whirl, const ShaftMark& mark, Kept k
     return;
   }
   const double lag = mark.direction() - std::atan2(whirl.y, whirl.x);
-  double reference = lag_;
-  if (kept == Kept::kDirection) {
-    reference += 2.0 * kPi * static_cast<double>(mark.shaft.turns - mark_.shaft.turns) +
-                 (mark.direction() - mark_.direction());
-  }
   // Whole turns, so that the last bit does not depend on which records were seen before.
-  turns_ = std::nearbyint((reference - lag) / (2.0 * kPi));
+  turns_ = std::nearbyint((lag_ - lag) / (2.0 * kPi));
   lag_ = lag + 2.0 * kPi * turns_;
   mark_ = mark;
   x_ = whirl.x;

@@ -31,16 +31,10 @@ struct ShaftMark {
   double direction() const { return shaft.remainder + on_shaft; }  ///< [rad]
 };
 
-/// What has changed by less than half a turn from one record to the next.
-enum class Kept {
-  kLag,       ///< as from step to step, and where the whirl turns with the shaft
-  kDirection  ///< of the whirl, whose shaft may have turned many times: it stands beside the centre
-};
-
 class WhirlPhase {
  public:
   /// The next record. After follow() settle() first.
-  void observe(const WhirlMotion& whirl, const ShaftMark& mark, Kept kept = Kept::kLag);
+  void observe(const WhirlMotion& whirl, const ShaftMark& mark);
 
   /// The next step, of which only the place [m] is looked at. False, with nothing done, where the
   /// whirl went a quarter of a turn or more, or through the centre, or has had no angle: the step
@@ -68,9 +62,6 @@ class WhirlPhase {
   /// The radius is large enough to have an angle.
   bool valid() const { return valid_; }
   double lag() const;  ///< [rad], of the last record observed; NaN unless valid
-  double largestRadius() const { return largest_radius_; }  ///< [m], observed so far
-  /// It was last at least at a part of the largest radius so far.
-  bool isWide(double part) const { return x_ * x_ + y_ * y_ > part * part * largest_square_; }
 
  private:
   /// A radius below this part of the largest so far has no angle worth the name.

@@ -110,7 +110,6 @@ void compare(const std::string& twin, bool quick) {
     Twin alone(readScene(YAML::Load(it.scene), "benchmark"));
     std::vector<double> steps;
     std::vector<double> commands;
-    std::vector<double> times;
     const auto stepCost = [&] {
       const Stepped step{it.name, [&](int count) { advance(alone, count); }};
       return stepCosts({step}, quick ? Effort{1, 1.0} : Effort{3, 30.0})[0].median;
@@ -120,12 +119,10 @@ void compare(const std::string& twin, bool quick) {
       commands.push_back(commandCost(twin, file.string(), seconds));
       const double after = stepCost();
       steps.push_back(0.5 * (before + after));
-      // A machine may be a third slower from one minute to the next: only neighbours are compared.
-      times.push_back(commands.back() / steps.back());
       before = after;
     }
     fmt::print("| {} | {:.1f} | {:.1f} | {:.2f} |\n", it.name, median(steps), median(commands),
-               median(times));
+               median(commands) / median(steps));
   }
   std::filesystem::remove(file);
 }

@@ -352,7 +352,7 @@ TEST(Drive, BadProfilesAreNamed) {
   EXPECT_EQ(message(0.0, 0.0, {{1.0, 1.0, 0.0, 0.0}, {2.0, -3.0, 0.0, 0.0}}),
             "drive: profile move 2: max_acceleration must be positive and finite, in rad/s^2, "
             "found -3");
-  EXPECT_EQ(message(2e6, 0.0, {}), "drive: speed must lie within +-1e6 rad/s, found 2000000");
+  EXPECT_EQ(message(2e6, 0.0, {}), "drive: speed must be within +-1e6 rad/s, found 2000000");
   EXPECT_NE(message(0.0, NAN, {}).find("angle"), std::string::npos);
   EXPECT_NE(message(0.0, 0.0, {{1e5, 1e-5, 0.0, 0.0}}).find("at most 1e9 s"), std::string::npos);
   EXPECT_THROW(Drive(0.0, 0.0, {{60.0, 1.0, 0.0, 0.0}}, 0, ExclusionBands({{54, 66}})), Refusal);

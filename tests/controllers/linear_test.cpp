@@ -48,38 +48,36 @@ TEST(Linear, RefusesWhatDoesNotFitTogether) {
     const auto [name, text] = refusal("linear", {}, matrices(std::move(given)), plan);
     return name + ": " + text;
   };
-  EXPECT_EQ(refused({}),
-            "d: missing; a linear law is given by d, by a, b, c and d, or by numerator and "
-            "denominator");
   EXPECT_EQ(
-      refused({{"d", two}}),
-      "d: must be 2 x 3, a row an output, a column for each of what is measured, found 2 x 2");
+      refused({}),
+      "d: missing; a linear control law needs d, or a, b, c and d, or numerator and denominator");
+  EXPECT_EQ(refused({{"d", two}}),
+            "d: must be 2 x 3, a row per output, a column per measured signal, found 2 x 2");
   EXPECT_EQ(refused({{"a", two_by_three}, {"b", two_by_three}, {"c", two}}),
             "a: must be 2 x 2, a row and a column a state, found 2 x 3");
   EXPECT_EQ(refused({{"a", two}, {"b", two}, {"c", two}}),
-            "b: must be 2 x 3, a row a state, a column for each of what is measured, found 2 x 2");
+            "b: must be 2 x 3, a row per state, a column per measured signal, found 2 x 2");
   EXPECT_EQ(refused({{"a", two}, {"b", two_by_three}, {"c", two_by_three}}),
-            "c: must be 2 x 2, a row an output, a column a state, found 2 x 3");
-  EXPECT_EQ(refused({{"a", two}, {"c", two}}),
-            "b: missing beside a: a, b and c are given together");
+            "c: must be 2 x 2, a row per output, a column per state, found 2 x 3");
+  EXPECT_EQ(refused({{"a", two}, {"c", two}}), "b: missing; a, b and c must be given together");
   EXPECT_EQ(refused({{"c", two}, {"d", two_by_three}}),
-            "a: missing beside c: a, b and c are given together");
+            "a: missing; a, b and c must be given together, found c");
   EXPECT_EQ(refused({{"d", two_by_three}, {"setpoint", row({1, 2})}}),
-            "setpoint: must be 1 x 3, a number for each of what is measured, found 1 x 2");
+            "setpoint: must be 1 x 3, a number for each measured signal, found 1 x 2");
   EXPECT_EQ(refused({{"numerator", row({1})}}),
-            "denominator: missing; numerator and denominator are given together");
+            "denominator: missing; numerator and denominator must be given together");
   EXPECT_EQ(refused({{"numerator", row({1})}, {"denominator", row({0, 1})}}),
-            "denominator: must begin with a number that is not 0, found 0");
-  EXPECT_EQ(refused({{"numerator", row({1, 2, 3})}, {"denominator", row({1, 1})}}),
-            "numerator: must have up to 2 coefficients, as the denominator has: what comes later "
-            "cannot be known, found 3");
+            "denominator: the first number must not be 0, found 0");
+  EXPECT_EQ(
+      refused({{"numerator", row({1, 2, 3})}, {"denominator", row({1, 1})}}),
+      "numerator: must have at most 2 coefficients, as the denominator has (causality), found 3");
   EXPECT_EQ(refused({{"numerator", two}, {"denominator", row({1, 1})}}),
             "numerator: must be 1 x 2, coefficients of falling powers of z, found 2 x 2");
   EXPECT_EQ(refused({{"numerator", row({1})}, {"denominator", row({1})}, {"d", two_by_three}}),
-            "d: must not be given beside numerator and denominator");
+            "d: must not be given with numerator and denominator");
   EXPECT_EQ(refused({{"numerator", row({1})}, {"denominator", row({1})}}),
-            "numerator: acts axis by axis: as many must be measured as acted on, found 3 measured, "
-            "2 acted on");
+            "numerator: acts axis by axis: must have as many measured signals as outputs, found 3 "
+            "measured, 2 acted on");
 }
 
 }  // namespace linear_test

@@ -103,19 +103,18 @@ TEST(Lqr, RefusesAtTheSettingThatIsWrong) {
     return settings;
   };
   EXPECT_EQ(refused("lqr", with("q", row({1, 2})), plan),
-            "q: must be 1 x 4, a number a state, or a row and a column a state, found 1 x 2");
+            "q: must be 1 x 4, a number per state, or a row and a column per state, found 1 x 2");
   EXPECT_EQ(refused("lqr", with("r", row({1, -1})), plan),
-            "r: must be >= 0 in its diagonal, found -1 in place 1");
+            "r: diagonal must be >= 0, found -1 at index 1");
   EXPECT_EQ(refused("lqr", with("r", (MatrixXd(2, 2) << 1, 2, 0, 1).finished()), plan),
             "r: must be symmetric");
-  EXPECT_EQ(
-      refused("lqr", with("q", row({1, 1, 1, 1})), planOfTwoMasses(20.0, 3)),
-      "q: weighs all 4 states: an lqr must measure each of them, found 3 measured that tell 3; "
-      "lqg estimates the rest");
+  EXPECT_EQ(refused("lqr", with("q", row({1, 1, 1, 1})), planOfTwoMasses(20.0, 3)),
+            "q: an lqr must measure all 4 states, found 3 signals with 3 states; lqg estimates the "
+            "others");
   EXPECT_EQ(refused("lqr", with("q", row({1, 1, 1, 1})), planOf(20.0, 4)).substr(0, 47),
-            "q: weighs the states of a linear plant, and the");
+            "q: needs a linear plant: the");
   EXPECT_EQ(refused("lqg", with("sensor_noise", row({1, 1})), plan),
-            "sensor_noise: must be 1 x 4, a number for each of what is measured, found 1 x 2");
+            "sensor_noise: must be 1 x 4, a number per measured signal, found 1 x 2");
   // Nothing moves the unstable mass: no gain holds it.
   ControllerPlan lost = plan;
   lost.plant->b.setZero();

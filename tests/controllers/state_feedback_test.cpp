@@ -20,8 +20,7 @@ TEST(StateFeedback, IsRefusedAGainOfAnotherSize) {
   const auto [name, text] =
       refusal("state_feedback", {}, matrices({{"gain", row({2, 3, 4})}}), planOf(10.0, 2, 1));
   EXPECT_EQ(name, "gain");
-  EXPECT_EQ(text,
-            "must be 1 x 2, a row an output, a column for each of what is measured, found 1 x 3");
+  EXPECT_EQ(text, "must be 1 x 2, a row per output, a column per measured signal, found 1 x 3");
 }
 
 }  // namespace state_feedback_test

@@ -92,7 +92,8 @@ TEST(FollowedMotor, OfWhichNothingTellsTheAngleIsRefused) {
     const Twinned twin(kMotor, {});
     FAIL() << "followed";
   } catch (const Refusal& refusal) {
-    EXPECT_THAT(refusal.what(), HasSubstr("systems.rotor: is turned by a motor"));
+    EXPECT_THAT(refusal.what(),
+                HasSubstr("systems.rotor: the torque of its motor is not measured"));
     EXPECT_THAT(refusal.what(), HasSubstr("keyphasor"));
   }
 }

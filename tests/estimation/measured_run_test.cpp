@@ -61,7 +61,7 @@ TEST(MeasuredRun, LeavesRepeatedInstantsOut) {
   const MeasuredRun run = read("t,a\n0,1\n0,2\n1,3.5\n2,4\n2,5\n3,6\n4,7\n");
   EXPECT_THAT(run.time, ElementsAre(0, 1, 2, 3, 4));
   EXPECT_THAT(run.column("a"), ElementsAre(1, 3.5, 4, 6, 7));
-  EXPECT_THAT(run.remarks.front(), HasSubstr("2 rows with the instant of the one before"));
+  EXPECT_THAT(run.remarks.front(), HasSubstr("2 rows at the same instant as the one before"));
   EXPECT_THAT(run.remarks.front(), HasSubstr("row 2"));
 }
 

@@ -150,7 +150,7 @@ TEST(RecordingOrder, TwoRunsInOneFileAreRefused) {
       rows.push_back({row.time + offset, row.angle});
     }
     EXPECT_THAT(refusal(rows), HasSubstr("row 101: the time goes back"));
-    EXPECT_THAT(refusal(rows), HasSubstr("expected one run, found two"));
+    EXPECT_THAT(refusal(rows), HasSubstr("must be one run, found two"));
   }
 }
 
@@ -162,7 +162,7 @@ TEST(RecordingOrder, WhatCountsOnIsNotUnwrapped) {
   EXPECT_EQ(settled(round.rows(300, 0.01)).data.column("q").front(), 0.0);
   const StudyRun kept = settled(wrapped(round.rows(300, 0.01), 0.0), false);
   EXPECT_LT(kept.data.column("q").back(), kTwoPi);
-  EXPECT_THAT(kept.data.remarks.front(), HasSubstr("leaps by"));
+  EXPECT_THAT(kept.data.remarks.front(), HasSubstr("jumps by"));
 }
 
 TEST(RecordingOrder, AnEncoderOfSomeTurnsIsUnwrapped) {
@@ -176,14 +176,14 @@ TEST(RecordingOrder, AnEncoderOfSomeTurnsIsUnwrapped) {
 
 TEST(RecordingOrder, ADirectionThatIsNotKnownIsSaid) {
   const Motion fast{250.0, 0.0, 1.0};  // 2.5 rad from row to row
-  EXPECT_THAT(refusal(wrapped(fast.rows(100, 0.01), 0.0)), HasSubstr("three rows a turn"));
+  EXPECT_THAT(refusal(wrapped(fast.rows(100, 0.01), 0.0)), HasSubstr("three rows per turn"));
   std::vector<Row> rows = wrapped(Motion{9.0, 1.0, 4.0}.rows(300, 0.01), -kPi);
   rows.erase(rows.begin() + 100, rows.begin() + 160);
   EXPECT_THAT(refusal(rows), HasSubstr("may have turned further in the gap of 0.61 s"));
   // A swing of less than a turn with a jump in a gap may be wrapped or not.
   std::vector<Row> swing = Motion{0.0, 2.5, 5.0}.rows(110, 0.01);
   swing.erase(swing.begin() + 35, swing.begin() + 85);  // from 2.5 to -2.2 rad
-  EXPECT_THAT(refusal(swing), HasSubstr("expected `wrap: true` if it counts within a turn"));
+  EXPECT_THAT(refusal(swing), HasSubstr("set `wrap: true` if the angle is within one turn"));
   EXPECT_EQ(refusal(swing, false), "");
 }
 

@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "elements[0].inner_diameter: must be < outer_diameter = 0.05 m, found 0.06"},
         Refusal{"youngs_modulus: 2.0e+11, density: 7800, elements: [{length: 0.1, outer_diameter: "
                 "0.05, count: 60}, {length: 0.1, outer_diameter: 0.04, count: 41}]",
-                "elements[1].count: must leave up to 100 elements in all, found 101"},
+                "elements[1].count: must give at most 100 elements in total, found 101"},
         Refusal{"youngs_modulus: 2.0e+11, density: 7800, elements: [{length: 0, outer_diameter: "
                 "0.05}]",
                 "elements[0].length: must be > 0 m, found 0"},
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{withShaft("magnets: [{node: 7, ki: 100, ks: 1.0e+5}]"),
                 "magnets[0].node: must be a whole number from 0 to 6, found 7"},
         Refusal{withShaft("magnets: [{node: 1, ki: 100, ks: 1}, {node: 1, ki: 100, ks: 1}]"),
-                "magnets[1].node: stands twice, found 1"},
+                "magnets[1].node: duplicate: node 1 already has one"},
         Refusal{withShaft("bearings: [{node: 0, kxx: 1}, {node: 2.5, kxx: 1}]"),
                 "bearings[1].node: must be a whole number from 0 to 6, found 2.5"},
         Refusal{withShaft("unbalances: [{node: 9, magnitude: 1}]"),
@@ -99,31 +99,32 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     AsItIsBuilt, RefusedFlexibleRotor,
     testing::Values(
-        Refusal{withShaft("shear_modulus: 81.2"),
-                "shear_modulus: must be in Pa, some 8.12e+10 Pa with this youngs_modulus, found "
-                "81.2"},
+        Refusal{
+            withShaft("shear_modulus: 81.2"),
+            "shear_modulus: must be in Pa, about 8.12e+10 Pa with this youngs_modulus, found 81.2"},
         Refusal{withShaft("poissons_ratio: 0.6"),
                 "poissons_ratio: must be from 0 to 0.5, found 0.6"},
         Refusal{withShaft("materials: [{name: bronze, youngs_modulus: 1.1e+11, density: 8800}], "
                           "sleeves: [{from: 0, to: 1, outer_diameter: 0.06, material: bronse}]"),
                 "sleeves[0].material: must be a name of materials, found 'bronse'; did you mean "
                 "'bronze'?"},
-        Refusal{withShaft("sleeves: [{from: 0, to: 1, outer_diameter: 0.04}]"),
-                "sleeves[0].outer_diameter: must be > 0.05 m, of what it sits on, found 0.04"},
+        Refusal{
+            withShaft("sleeves: [{from: 0, to: 1, outer_diameter: 0.04}]"),
+            "sleeves[0].outer_diameter: must be > 0.05 m, the outer diameter below it, found 0.04"},
         Refusal{withShaft("sleeves: [{from: 2, to: 2, outer_diameter: 0.06}]"),
                 "sleeves[0].to: must be > from = 2, found 2"},
         Refusal{withShaft("discs: [{node: 1}]"),
                 "discs[0].mass: missing; in kg, or outer_diameter and width in m"},
         Refusal{withShaft("discs: [{node: 1, outer_diameter: 0.3}]"),
-                "discs[0].width: must be > 0 m, of a disc by its geometry"},
+                "discs[0].width: must be > 0 m for a disc by its geometry"},
         Refusal{withShaft("pedestals: [{node: 0, mass: 9, kxx: 1}]"),
-                "pedestals[0].node: must be one with a bearing, which stands on it, found 0"},
+                "pedestals[0].node: must be a node with a bearing, found 0"},
         Refusal{withShaft("bearings: [{node: 0, kxx: 1}], pedestals: [{node: 0, mass: 0, kxx: 1}]"),
                 "pedestals[0].mass: must be > 0 kg, found 0; a spring without a mass is part of "
                 "the bearing, k1 k2 / (k1 + k2)"},
         Refusal{withShaft("magnets: [{node: 1, ki: 100, ks: 1}], pedestals: [{node: 1, mass: 9}]"),
-                "pedestals[0].node: must have no magnet, whose force is one between shaft and "
-                "ground, found 1"},
+                "pedestals[0].node: must be a node without a magnet, whose force acts between "
+                "shaft and ground, found 1"},
         Refusal{withShaft("couplings: [{element: 6, lateral_stiffness: 1, bending_stiffness: 1}]"),
                 "couplings[0].element: must be a whole number from 0 to 5, found 6"},
         Refusal{withShaft("couplings: [{element: 2, lateral_stiffness: 1, bending_stiffness: 1}], "
@@ -132,7 +133,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{withShaft("modal_damping: [{ratio: 0.01}, {ratio: 0.02}]"),
                 "modal_damping[1].frequency: must be > 0 rad/s, the row before, found 0"},
         Refusal{withShaft("bearings: [{node: 0, kxx: 1, mxx: 1, mxy: 2}]"),
-                "bearings[0].mxy: must be a mass matrix's, mxy^2 <= mxx myy = 1 kg^2, found 2"}));
+                "bearings[0].mxy: must give a positive semidefinite mass matrix, mxy^2 <= mxx myy "
+                "= 1 kg^2, found 2"}));
 
 INSTANTIATE_TEST_SUITE_P(
     ModesAndTables, RefusedFlexibleRotor,
@@ -143,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{withShaft("modes: 29"),
                 "modes: must be auto or a whole number from 0 to 28, four a node, found 29"},
         Refusal{withShaft("bearing_tables: [{bearing: 0, speed: 1}]"),
-                "bearing_tables[0].bearing: there is no row in bearings that it could be of"},
+                "bearing_tables[0].bearing: needs a row in bearings to refer to"},
         Refusal{withShaft("bearings: [{node: 0}], bearing_tables: [{bearing: 1, speed: 1}]"),
                 "bearing_tables[0].bearing: must be a whole number from 0 to 0, found 1"},
         Refusal{withShaft("bearings: [{node: 0}], bearing_tables: [{bearing: 0, speed: 5}, "
@@ -151,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "bearing_tables[1].speed: must be > 5 rad/s, the row before of this bearing, found "
                 "5"},
         Refusal{withShaft("pedestal_tables: [{pedestal: 0, speed: 1}]"),
-                "pedestal_tables[0].pedestal: there is no row in pedestals that it could be of"},
+                "pedestal_tables[0].pedestal: needs a row in pedestals to refer to"},
         Refusal{withShaft("bearings: [{node: 0, kxx: 1}], pedestals: [{node: 0, mass: 9, kxx: 1}], "
                           "pedestal_tables: [{pedestal: 0, speed: 5, kxx: 1}]"),
                 "pedestals[0]: must give its node and mass only: pedestal_tables gives its "
@@ -191,9 +193,7 @@ TEST(FlexibleRotorScene, HoldsAlongYAsAlongXAndSaysSo) {
   const Linearization l = rotor.matrices(0.0);
   EXPECT_NEAR(l.stiffness(1, 1), l.stiffness(0, 0), 1.0);
   EXPECT_NEAR(l.stiffness(25, 25), l.stiffness(24, 24) - 1.0e6, 1.0);
-  EXPECT_EQ(setup.note,
-            "cyy as cxx, not being given (bearings[0]); kyy as kxx, not being given "
-            "(bearings[0])");
+  EXPECT_EQ(setup.note, "cyy as cxx, default (bearings[0]); kyy as kxx, default (bearings[0])");
 }
 
 TEST(FlexibleRotorScene, WhatFollowsAnotherGoesAlongWhenThatChanges) {
@@ -298,9 +298,9 @@ TEST(FlexibleRotorScene, SaysWhatNoShaftAndNoDiscIs) {
   };
   EXPECT_EQ(noteOf(0.03, 0.2), "");
   EXPECT_EQ(noteOf(10.0, 0.2), "a shaft 10 m thick, 0.24 m long; lengths are in m");
-  EXPECT_EQ(noteOf(0.03, 1.0),
-            "discs[0]: no body has a polar_inertia, 1 kg m^2, above twice its "
-            "transverse_inertia, 0.1 kg m^2");
+  EXPECT_EQ(
+      noteOf(0.03, 1.0),
+      "discs[0]: polar_inertia, 1 kg m^2, should be at most twice transverse_inertia, 0.1 kg m^2");
 }
 
 TEST(FlexibleRotorScene, IsReducedAndSaysSo) {

@@ -57,30 +57,31 @@ INSTANTIATE_TEST_SUITE_P(
                 "circulatory: must be skew-symmetric, with a zero diagonal, found [0][0] = 3"},
         Refusal{"mass: [[1, 0], [0, 0]], stiffness: [[1, 0], [0, 1]]",
                 "mass: must be positive definite: a coordinate or combination without mass has no "
-                "motion of its own; found [1][1] = 0 kg"},
+                "independent motion; found [1][1] = 0 kg"},
         Refusal{"mass: [[1, 1, 0], [1, 1, 0], [0, 0, 1]], stiffness: [[1, 0, 0], [0, 1, 0], [0, 0, "
                 "1]], names: [left, right, top]",
                 "mass: must be positive definite: a coordinate or combination without mass has no "
-                "motion of its own; found no mass for a combination of left, right"},
+                "independent motion; found no mass for a combination of left, right"},
         Refusal{"mass: [[1, 2], [2, 1]], stiffness: [[1, 0], [0, 1]]",
                 "mass: must be positive definite: a coordinate or combination without mass has no "
-                "motion of its own; found negative mass for a combination of q1, q2"},
+                "independent motion; found negative mass for a combination of q1, q2"},
         Refusal{"mass: [[1.0e-200]], stiffness: [[1.0e+200]]",
-                "mass: must give finite accelerations; those of this stiffness, damping or force "
-                "are beyond the range of doubles"}));
+                "mass: must give accelerations within the range of doubles; those of this "
+                "stiffness, damping or force exceed it"}));
 
 INSTANTIATE_TEST_SUITE_P(
     NamesAndForces, RefusedLinearSystem,
     testing::Values(
         Refusal{"mass: [[1]], stiffness: [[1]], names: [a, b]",
-                "names: must be one name a coordinate, 1 in all, found 2"},
+                "names: must be one name per coordinate, 1 in total, found 2"},
+        Refusal{"mass: [[1]], stiffness: [[1]], names: ['2nd floor']",
+                "names[0]: must have at most 48 letters, digits and _, a letter first, found '2nd "
+                "floor'"},
         Refusal{
-            "mass: [[1]], stiffness: [[1]], names: ['2nd floor']",
-            "names[0]: must be up to 48 letters, digits and _, a letter first, found '2nd floor'"},
-        Refusal{"mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], names: [x, x]",
-                "names[1]: must be a name that no other coordinate or its rate has, found 'x'"},
+            "mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], names: [x, x]",
+            "names[1]: must differ from the names of other coordinates and their rates, found 'x'"},
         Refusal{"mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], names: [x, x_rate]",
-                "names[1]: must be a name that no other coordinate or its rate has, found "
+                "names[1]: must differ from the names of other coordinates and their rates, found "
                 "'x_rate'"},
         Refusal{
             "mass: [[1]], stiffness: [[1]], names: [floor], force: [{coordinate: flor, "
@@ -99,17 +100,15 @@ INSTANTIATE_TEST_SUITE_P(
     AssumedModes, RefusedLinearSystem,
     testing::Values(
         Refusal{"mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], assumed_modes: [[1]]",
-                "assumed_modes: must have 2 rows, one a coordinate, and up to 2 columns, one a "
-                "shape, found 1 x 1"},
-        Refusal{
-            "mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], assumed_modes: [[1, 2], [2, "
-            "4]]",
-            "assumed_modes: must be linearly independent shapes, found 2 of which one is zero or a "
-            "sum of the others"},
-        Refusal{
-            "mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], assumed_modes: [[0], [0]]",
-            "assumed_modes: must be linearly independent shapes, found 1 of which one is zero or a "
-            "sum of the others"}));
+                "assumed_modes: must have 2 rows, one per coordinate, and at most 2 columns, one "
+                "per shape, found 1 x 1"},
+        Refusal{"mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], assumed_modes: [[1, 2], [2, "
+                "4]]",
+                "assumed_modes: must be linearly independent shapes, found 2 of which one is zero "
+                "or a combination of the others"},
+        Refusal{"mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], assumed_modes: [[0], [0]]",
+                "assumed_modes: must be linearly independent shapes, found 1 of which one is zero "
+                "or a combination of the others"}));
 
 TEST(LinearSystemScene, NeedsAMassAndAStiffness) {
   try {

@@ -253,24 +253,24 @@ void expectRefused(const std::string& parameters, const std::string& message) {
 TEST(RigidSupports, AreRefusedBesideWhatYields) {
   const std::string disc = "density: 7850, discs: [{node: 2, mass: 25}], ";
   expectRefused(disc + "bearings: [{node: 0, pin: true, kxx: 1.0e+6}]",
-                "bearings[0].kxx: a pin is rigid: it has no kxx, found 1000000");
+                "bearings[0].kxx: a pin is rigid: must not have kxx, found 1000000");
   expectRefused(disc + "bearings: [{node: 0, pin: true, clamp: true}]",
-                "bearings[0]: must give pin or clamp, not both: a clamp holds what a pin holds");
+                "bearings[0]: must give pin or clamp, not both: a clamp includes a pin");
   expectRefused(disc + "bearings: [{node: 0, pin: yes}]",
                 "bearings[0].pin: must be true or false, found 'yes'");
   expectRefused(disc +
                     "bearings: [{node: 0, clamp: true}], bearing_tables: [{bearing: 0, speed: "
                     "1, kxx: 1}]",
-                "bearings[0]: a clamp is rigid: it has no rows in bearing_tables");
+                "bearings[0]: must not have rows in bearing_tables, because a clamp is rigid");
   expectRefused(disc + "bearings: [{node: 0, clamp: true}, {node: 0, kxx: 1.0e+6}]",
-                "bearings: node 0 is held rigidly by a pin or clamp: no other bearing, film, "
-                "magnet, spring or rub can act on the shaft there");
+                "bearings: node 0 has a pin or clamp: no other bearing, film, magnet, spring or "
+                "rub can act on the shaft there");
   expectRefused(disc + "bearings: [{node: 0, clamp: true}], probe_node: 0",
-                "probe_node: must be a node that moves; a pin or clamp holds node 0");
+                "probe_node: must be a free node; node 0 has a pin or clamp");
   expectRefused("density: 0, bearings: [{node: 0, clamp: true}]",
-                "elements: nothing that moves has a mass");
+                "elements: no free coordinate has a mass");
   expectRefused("density: 0, discs: [{node: 2, mass: 25}]",
-                "elements: a part of the rotor without mass is not held by springs");
+                "elements: a massless part of the rotor is not supported by springs");
 }
 
 }  // namespace rigid_supports_test

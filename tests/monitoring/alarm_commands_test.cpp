@@ -78,10 +78,10 @@ TEST(AlarmCommands, AcknowledgeTheAlertsOfOneSystemAndLeaveTheOthers) {
 TEST(AlarmCommands, AResetTakesOffWhatIsLatchedAndOnlyThat) {
   Commanded twin;
   twin.tell(2.0e-3, 0.4);
-  EXPECT_EQ(twin.command(kReset).text, "0 cleared, 2 have their cause still");
+  EXPECT_EQ(twin.command(kReset).text, "0 cleared, 2 still active because their cause persists");
   twin.tell(0.1e-3, 2.0);
   ASSERT_TRUE(twin.alertOf("rotor")->latched);
-  EXPECT_EQ(twin.command(kReset).text, "2 cleared, 0 have their cause still");
+  EXPECT_EQ(twin.command(kReset).text, "2 cleared, 0 still active because their cause persists");
   EXPECT_EQ(twin.alertOf("rotor"), nullptr);
 }
 
@@ -103,7 +103,7 @@ TEST(AlarmCommands, AnInhibitionIsAnAlertUntilItEnds) {
   Commanded twin;
   twin.tell(0.1e-3, 0.4);
   EXPECT_EQ(twin.command(kInhibit, "", "", 3600.0).text,
-            "alerts of every system are held back for 900 s (max_inhibition), not 3600 s");
+            "alerts of every system are inhibited for 900 s (max_inhibition), not 3600 s");
   for (const char* system : {"rotor", "pump"}) {
     const state::Alert* alert = twin.monitor.alerts().find(system, alert_type::kInhibited);
     ASSERT_NE(alert, nullptr);
@@ -165,13 +165,14 @@ TEST(AlarmCommands, RefuseWhatCannotBeMeantAndDoNothingOfIt) {
             "system: must be a system of the scene, found 'roter'; did you mean 'rotor'?");
   EXPECT_EQ(refusal(twin.command(kAcknowledge, "rotor", "UNSTABEL")),
             "type: must be a type of alert, found 'UNSTABEL'; did you mean 'UNSTABLE'?");
-  EXPECT_EQ(refusal(twin.command(kAcknowledge, "rotor", "UNSTABLE")), "no alert UNSTABLE of rotor");
+  EXPECT_EQ(refusal(twin.command(kAcknowledge, "rotor", "UNSTABLE")),
+            "no active alert UNSTABLE of rotor");
   EXPECT_EQ(refusal(twin.command(kAcknowledge, "", "", 5.0)),
-            "duration: must be 0 but for an inhibition, found 5");
+            "duration: must be 0 except for command 3 (inhibit), found 5");
   EXPECT_EQ(refusal(twin.command(kReset, "rotor")),
-            "system: must be empty, a reset is one of all alarms, found rotor");
+            "system: must be empty, since command 2 resets all alarms, found rotor");
   EXPECT_EQ(refusal(twin.command(kInhibit, "rotor", "UNSTABLE", 5.0)),
-            "type: must be empty but to acknowledge, found UNSTABLE");
+            "type: must be empty except for command 1 (acknowledge), found UNSTABLE");
   EXPECT_EQ(refusal(twin.command(kInhibit, "", "", 3601.0)),
             "duration: must be from 0 to 3600 s, found 3601");
   EXPECT_EQ(refusal(twin.command(kInhibit, "", "", std::numeric_limits<double>::quiet_NaN())),

@@ -96,7 +96,7 @@ amplitude:
       "amplitude.roter: unknown rotor of the scene; did you mean 'rotor'?",
       "amplitude.rotor.danger: must be above alert, 0.002 m, found 0.001",
       "amplitude.rotor.range: must be above the levels, 0.002 m, found 0.0015",
-      "amplitude.pump.speed[2]: must be above the one before, 100 rad/s, found 50",
+      "amplitude.pump.speed[2]: must be greater than the one before, 100 rad/s, found 50",
       "amplitude.pump.alert[1]: must be > 0 m, found 0.0",
       "amplitude.pump.alert: must be 3 [m], one for each speed, found 2"};
   for (const std::string& text : expected) {

@@ -52,7 +52,8 @@ TEST(CaptureAlarm, ACaptureIsForetoldBeforeTheBandAndAlarmedWhenTheSpeedStandsSt
   EXPECT_NEAR(watched.margins[0].critical_speeds[0].speed, 200.08, 0.01);
   EXPECT_LT(foretold->speed, watched.margins[0].critical_speeds[0].band_low);
   EXPECT_NEAR(foretold->critical_speed, 200.08, 0.01);
-  EXPECT_NE(foretold->text.find("hang at 197.9 rad/s"), std::string::npos) << foretold->text;
+  EXPECT_NE(foretold->text.find("resonance capture at 197.9 rad/s"), std::string::npos)
+      << foretold->text;
   const state::Alert* danger = firstOf(watched, state::Severity::kDanger);
   ASSERT_NE(danger, nullptr);
   EXPECT_EQ(danger->id, foretold->id);
@@ -135,7 +136,7 @@ systems:
   ASSERT_NE(danger, nullptr);
   EXPECT_NEAR(watched.observer.drive(0).speed, danger->critical_speed,
               0.03 * danger->critical_speed);
-  EXPECT_NE(danger->text.find("captured near"), std::string::npos) << danger->text;
+  EXPECT_NE(danger->text.find("resonance capture near"), std::string::npos) << danger->text;
 }
 
 // Nonlinear rotors have critical speeds too: those of their small motion where they hang.

@@ -59,7 +59,7 @@ struct Told {
 
 TEST(DataQuality, WhatIsNotFiniteClearsNothingAndBreaksTheClearDelay) {
   Told told;
-  EXPECT_EQ(told.notOk(), "stale: nothing has come yet");
+  EXPECT_EQ(told.notOk(), "stale: no state received yet");
   told.tell(2.0e-3, 0.5);
   EXPECT_EQ(told.notOk(), "");
   ASSERT_TRUE(told.raised());
@@ -79,7 +79,7 @@ TEST(DataQuality, BeyondItsRangeAWhirlIsNoMeasurement) {
   told.tell(0.1e-3, 0.5);
   told.tell(9.0e-3, 2.0);
   EXPECT_FALSE(told.raised());
-  EXPECT_EQ(told.notOk(), "out of range: whirl 9 mm, beyond 5 mm");
+  EXPECT_EQ(told.notOk(), "out of range: whirl 9 mm 0-peak, above 5 mm");
   told.tell(4.0e-3, 0.5);
   EXPECT_TRUE(told.raised());
   told.tell(9.0e-3, 5.0);

@@ -75,7 +75,7 @@ TEST(DecayAlarm, IsRaisedWhereTheMachineDecaysSlowerThanItsModelAndClears) {
   ASSERT_NE(watched.alert(), nullptr);
   EXPECT_EQ(watched.alert()->severity, state::Severity::kWarning);
   EXPECT_NEAR(watched.alert()->decay_rate, 1.0, 0.6);
-  EXPECT_NE(watched.alert()->text.find("nearer to its threshold"), std::string::npos)
+  EXPECT_NE(watched.alert()->text.find("closer to instability"), std::string::npos)
       << watched.alert()->text;
   watched.model(1.0);
   watched.run(60.0, 1.0);

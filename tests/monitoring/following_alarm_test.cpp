@@ -81,8 +81,8 @@ TEST(FollowingAlarm, ResidualsBeyondEitherLimitAreAMismatch) {
     ASSERT_NE(told.find(alert_type::kModelMismatch), nullptr) << mismatch;
     EXPECT_EQ(told.find(alert_type::kModelMismatch)->severity, state::Severity::kWarning);
     const std::string text = told.text(alert_type::kModelMismatch);
-    EXPECT_TRUE(has(text, mismatch > 1.0 ? "1.2 of what the model says, above 1.1"
-                                         : "0.8 of what the model says, below 0.9"))
+    EXPECT_TRUE(has(text, mismatch > 1.0 ? "(NIS) 1.2, expected 1, above the limit 1.1"
+                                         : "(NIS) 0.8, expected 1, below the limit 0.9"))
         << text;
     // Within the limits, but not together with the model yet.
     told.follow.mismatch = mismatch > 1.0 ? 1.08 : 0.92;
@@ -101,7 +101,7 @@ TEST(FollowingAlarm, ResidualsThatLastAreAMismatchOfEitherSign) {
     Told told;
     told.follow.whiteness = whiteness;
     told.tell(0.1);
-    EXPECT_TRUE(has(told.text(alert_type::kModelMismatch), "last from sample to sample"));
+    EXPECT_TRUE(has(told.text(alert_type::kModelMismatch), "autocorrelation of the innovations"));
   }
 }
 
@@ -189,7 +189,7 @@ TEST(FollowingAlarm, ShaftAndClockAreSensorsToo) {
   told.tell(2.2);
   const std::string text = told.text(alert_type::kSensor);
   EXPECT_TRUE(has(text, "the shaft's angle is not known")) << text;
-  EXPECT_TRUE(has(text, "the machine's clock is off by -3.6e+03 s")) << text;
+  EXPECT_TRUE(has(text, "the machine's clock has an offset of -3.6e+03 s")) << text;
   told.follow.shaft_known = true;
   told.follow.clock_offset = 0.0;
   told.follow.clock_drift = 1.0e-3;
@@ -248,7 +248,7 @@ systems:
     }
     const state::Alert* alert = watched.monitor.alerts().find("rotor", alert_type::kSensor);
     ASSERT_NE(alert, nullptr) << drive;
-    EXPECT_TRUE(has(alert->text, "the shaft's angle is not known; look at the keyphasor"))
+    EXPECT_TRUE(has(alert->text, "the shaft's angle is unknown; check the keyphasor"))
         << alert->text;
   }
 }

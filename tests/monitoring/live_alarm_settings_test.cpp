@@ -66,8 +66,8 @@ amplitude:
   pumpe: {alert: 1.0e-3}
 )");
   const std::vector<std::string> expected{
-      "trip_multiply: is not set: there is nothing to take away", "lcm_url: unknown parameter",
-      "clear_delay: must be >= 0 s, found -1",
+      "trip_multiply: must be a setting in force to be removed, found none",
+      "lcm_url: unknown parameter", "clear_delay: must be >= 0 s, found -1",
       "amplitude.rotor.danger: must be above alert, 0.002 m, found 0.001",
       "amplitude.pumpe: unknown rotor of the scene; did you mean 'pump'?"};
   EXPECT_EQ(errors.size(), expected.size());

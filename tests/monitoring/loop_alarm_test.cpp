@@ -90,7 +90,7 @@ TEST(LoopMargins, SayWhyALoopIsNotJudged) {
       "stiffness: [[1.0]]}}}, controllers: {own: {type: external, rate: 10.0, measures: [s.x], "
       "acts_on: [s.force_x], delay: 0.1, mode: free_running, timeout: 0.5}}}"));
   EXPECT_EQ(margins.verdict_name, "uncertain");
-  EXPECT_EQ(margins.objection, "a law of the loop is not linear");
+  EXPECT_EQ(margins.objection, "a control law of the loop is not linear");
   EXPECT_TRUE(std::isnan(margins.sensitivity_peak));
   EXPECT_EQ(margins.zone, "");
 }

@@ -113,7 +113,7 @@ TEST(MeasuredSignal, IsToldByTheScenesSensors) {
   EXPECT_FALSE(measuredOrbitOf(build(sceneOf(without)), 0)) << "no keyphasor";
   std::string alike = kMeasured;
   alike.replace(alike.find("direction: 0.785398163397448"), 28, "direction: 2.356194490192345");
-  EXPECT_FALSE(measuredOrbitOf(build(sceneOf(alike)), 0)) << "two probes along one line";
+  EXPECT_FALSE(measuredOrbitOf(build(sceneOf(alike)), 0)) << "must not be parallel";
 }
 
 TEST(MeasuredSignal, OrdersAndAlarmsComeWithoutATwin) {
@@ -233,7 +233,7 @@ TEST(MeasuredSignal, WithoutPulsesVibrationIsJudgedOn) {
   machine.run(1.5);
   machine.spoil = [](state::Measurement& block) { return block.source != "tacho"; };
   machine.run(4.0);
-  EXPECT_EQ(machine.notOk().find("no pulses: tacho for"), 0u) << machine.notOk();
+  EXPECT_EQ(machine.notOk().find("timeout: no pulse of tacho for"), 0u) << machine.notOk();
   EXPECT_FALSE(machine.told.valid);
   EXPECT_EQ(machine.alert(alert_type::kVibrationZone), nullptr);
   machine.spoil = [](state::Measurement& block) {

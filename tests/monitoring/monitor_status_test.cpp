@@ -26,7 +26,7 @@ systems:
 )"));
   const state::MonitorStatus first = watched.monitor.status(0.0, false);
   ASSERT_EQ(first.system.size(), 2u);
-  EXPECT_TRUE(std::isnan(first.verdict_age[0])) << "nothing has come";
+  EXPECT_TRUE(std::isnan(first.verdict_age[0])) << "no state received";
   watched.run(0.55);
   const state::MonitorStatus status = watched.monitor.status(watched.wall + 2.0, true);
   EXPECT_EQ(status.at.step, 550);
@@ -45,7 +45,7 @@ TEST(MonitorPulse, IsMissedAfterThreeSeconds) {
   EXPECT_EQ(pulse.silence(1000.0), "") << "never heard: a twin may run without";
   pulse.beat(10.0);
   EXPECT_EQ(pulse.silence(12.9), "");
-  EXPECT_EQ(pulse.silence(15.2), "the monitor is silent for 5 s: nothing is being watched");
+  EXPECT_EQ(pulse.silence(15.2), "no message from the monitor for 5 s: nothing is monitored");
   pulse.beat(16.0);
   EXPECT_EQ(pulse.silence(16.5), "");
 }

@@ -95,7 +95,7 @@ TEST(SubsynchronousWhirl, IsAForwardLineBelowTheSpeedAndAboveItsLevel) {
   told.line(96.0, 30e-6);
   told.tell(0.2);
   ASSERT_NE(told.whirl(), nullptr);
-  EXPECT_NE(told.whirl()->text.find("96.0 rad/s, 0.48 of the speed"), std::string::npos)
+  EXPECT_NE(told.whirl()->text.find("96.0 rad/s, 0.48 times the speed"), std::string::npos)
       << told.whirl()->text;
   told.orders.valid = false;
   told.line(96.0, 0.0);
@@ -115,7 +115,8 @@ TEST(SubsynchronousWhirl, IsOilWhirlWhereTheRatioStaysAndWhipWhereTheFrequencySt
       told.tell(0.1);
     }
     ASSERT_NE(told.whirl(), nullptr);
-    const char* expected = whip ? "keeps its frequency: whip" : "keeps its ratio to the speed: oil";
+    const char* expected =
+        whip ? "keeps its frequency: oil whip" : "keeps its ratio to the speed: oil";
     EXPECT_NE(told.whirl()->text.find(expected), std::string::npos) << told.whirl()->text;
   }
 }
@@ -152,7 +153,7 @@ TEST(Rub, IsToldByWhatWhirlsBackward) {
   ASSERT_NE(told.rub(), nullptr);
   EXPECT_EQ(told.rub()->severity, state::Severity::kWarning);
   EXPECT_NEAR(told.rub()->amplitude, 22e-6, 0.3e-6);
-  EXPECT_NE(told.rub()->text.find("backward by 2"), std::string::npos) << told.rub()->text;
+  EXPECT_NE(told.rub()->text.find("backward whirl 2"), std::string::npos) << told.rub()->text;
   told.circles(60e-6, 500e-6);
   told.tell(0.2);
   EXPECT_EQ(told.rub()->severity, state::Severity::kDanger);

@@ -37,7 +37,7 @@ TEST(PassageAlarm, SaysWhatIsDoneAboutACapture) {
     const state::Alert* alert = list.find("governor", alert_type::kResonanceNotPassed);
     return alert == nullptr ? std::string() : alert->text;
   };
-  EXPECT_NE(text(1.0, Supervision::kRetreating).find("captured"), std::string::npos);
+  EXPECT_NE(text(1.0, Supervision::kRetreating).find("capture"), std::string::npos);
   EXPECT_EQ(list.active()[0].severity, state::Severity::kDanger);
   const auto id = list.active()[0].id;
   EXPECT_NE(text(2.0, Supervision::kTryingAgain).find("tries again"), std::string::npos);
@@ -56,7 +56,8 @@ TEST(PassageAlarm, SaysWhatIsRefusedAndWhy) {
   ASSERT_EQ(list.active().size(), 1u);
   EXPECT_EQ(list.active()[0].severity, state::Severity::kWarning);
   const std::string text = list.active()[0].text;
-  for (const char* part : {"governor", "does not try", "180 to 220 rad/s", "0.6 N m", "0.4 N m"}) {
+  for (const char* part :
+       {"governor", "does not start", "180 to 220 rad/s", "0.6 N m", "0.4 N m"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
   }
 }

@@ -103,7 +103,7 @@ void expectDoubtBetweenThresholds(const std::string& modes, const char* bearings
   const state::Alert* const alert = alerts.find("r", alert_type::kUnstable);
   ASSERT_NE(alert, nullptr);
   EXPECT_EQ(alert->severity, state::Severity::kWarning);
-  EXPECT_NE(alert->text.find("keep more modes"), std::string::npos) << alert->text;
+  EXPECT_NE(alert->text.find("retain more modes"), std::string::npos) << alert->text;
 
   const state::StabilityMargin below = judged(few, 0.9 * std::min(of_whole, of_few));
   EXPECT_EQ(below.verdict_name, "asymptotically_stable");

@@ -233,7 +233,7 @@ TEST_F(Beside, ALogThatIsPlayedClearsNothingAndIsNamed) {
   EXPECT_EQ(danger()->severity, state::Severity::kDanger);
   EXPECT_EQ(watched.count("IN_CRITICAL_BAND", false), 0u);
   ASSERT_NE(duplicate(), nullptr);
-  EXPECT_NE(duplicate()->text.find("of a log that is played"), std::string::npos);
+  EXPECT_NE(duplicate()->text.find("from a log being played"), std::string::npos);
   for (int i = 0; i < 7; ++i) {
     own(1.0);
   }
@@ -278,12 +278,12 @@ TEST_F(Beside, ParametersOfASecondTwinAreNotKept) {
 }
 
 TEST_F(InDanger, WhatIsUncertainRaisesAndClearsNothing) {
-  watched.monitor.setUncertain("the twin runs another scene");
+  watched.monitor.setUncertain("the scene of the twin");
   watched.twin.setSpeed(0, 10.0, 1000.0, 0.0);
   watched.run(3.0);
   watched.monitor.tick(watched.wall, false);
   expectUntouched();
-  EXPECT_EQ(watched.monitor.notOk(watched.wall, false).front(), "the twin runs another scene");
+  EXPECT_EQ(watched.monitor.notOk(watched.wall, false).front(), "the scene of the twin");
   watched.monitor.setUncertain("");
   watched.run(2.0);
   EXPECT_EQ(watched.count("IN_CRITICAL_BAND", false), 1u);

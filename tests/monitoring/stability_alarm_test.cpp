@@ -53,17 +53,18 @@ TEST_F(StabilityAlarmTest, AnUnstableVerdictIsDangerAtOnceAndClearsAfterTheDelay
   EXPECT_EQ(unstable()->severity, state::Severity::kDanger);
   EXPECT_EQ(unstable()->decay_rate, -2.5);
   EXPECT_EQ(unstable()->text,
-            "rotor at 100.0 rad/s: unstable, 2 roots in the right half-plane, growth rate 2.5 1/s: "
-            "add damping outside the shaft, or take away what drives it");
+            "rotor at 100.0 rad/s (955 rpm): unstable, 2 roots in the right half-plane, growth "
+            "rate 2.5 1/s: "
+            "add external damping, or remove the destabilizing force");
   state::StabilityMargin periodic = marginOf(0.15, kUnstable, -0.05, -2.5);
   periodic.judged_about = state::StabilityMargin::About::kPeriodicMotion;
   periodic.right = 1;
   alarm_.update(periodic, list_);
   EXPECT_EQ(
       unstable()->text,
-      "rotor at 100.0 rad/s (its periodic motion): unstable, 1 Floquet multiplier outside the "
-      "unit circle, growth rate 2.5 1/s: add damping outside the shaft, or take away what "
-      "drives it");
+      "rotor at 100.0 rad/s (955 rpm) (its periodic motion): unstable, 1 Floquet multiplier "
+      "outside the "
+      "unit circle, growth rate 2.5 1/s: add external damping, or remove the destabilizing force");
   alarm_.update(marginOf(0.2, kStable), list_);
   alarm_.update(marginOf(1.0, kStable), list_);
   EXPECT_NE(unstable(), nullptr);
@@ -81,9 +82,10 @@ TEST_F(StabilityAlarmTest, RouthAndEigenvaluesThatDisagreeAreAWarning) {
   alarm_.update(margin, list_);
   ASSERT_NE(disagreement(), nullptr);
   EXPECT_EQ(disagreement()->severity, state::Severity::kWarning);
-  EXPECT_EQ(disagreement()->text,
-            "rotor at 100.0 rad/s: Routh's test counts 0 roots in the right half-plane, the "
-            "eigenvalues 2: the verdict is not to be trusted");
+  EXPECT_EQ(
+      disagreement()->text,
+      "rotor at 100.0 rad/s (955 rpm): Routh's test counts 0 roots in the right half-plane, the "
+      "eigenvalues 2: the verdict is unreliable");
   EXPECT_EQ(unstable(), nullptr);
   alarm_.update(marginOf(0.2, kStable), list_);
   alarm_.update(marginOf(0.8, kUncertain, kNaN, kNaN), list_);  // beyond a double: nothing is known
@@ -128,16 +130,16 @@ TEST_F(StabilityAlarmTest, SaysWhatToDoAboutIt) {
   growing.threshold_below = 80.0;
   alarm_.update(growing, list_);
   ASSERT_NE(unstable(), nullptr);
-  EXPECT_NE(unstable()->text.find(": go below 80.0 rad/s"), std::string::npos);
+  EXPECT_NE(unstable()->text.find(": run below 80.0 rad/s (764 rpm)"), std::string::npos);
 
   AlertList both;
   growing.threshold_above = 130.0;
   StabilityAlarm between("rotor", AlarmSettings());
   between.update(growing, both);
   ASSERT_NE(both.find("rotor", alert_type::kUnstable), nullptr);
-  EXPECT_NE(
-      both.find("rotor", alert_type::kUnstable)->text.find(": go below 80.0 or above 130.0 rad/s"),
-      std::string::npos);
+  EXPECT_NE(both.find("rotor", alert_type::kUnstable)
+                ->text.find(": run below 80.0 rad/s (764 rpm) or above 130.0 rad/s (1241 rpm)"),
+            std::string::npos);
 
   AlertList slow;
   StabilityAlarm decaying("rotor", AlarmSettings());
@@ -146,7 +148,7 @@ TEST_F(StabilityAlarmTest, SaysWhatToDoAboutIt) {
   decaying.update(margin, slow);
   ASSERT_NE(slow.find("rotor", alert_type::kLowDamping), nullptr);
   EXPECT_NE(slow.find("rotor", alert_type::kLowDamping)
-                ->text.find(": stay away from 110.0 rad/s, or add damping outside the shaft"),
+                ->text.find(": keep away from 110.0 rad/s (1050 rpm), or add external damping"),
             std::string::npos);
 
   AlertList near;
@@ -182,8 +184,8 @@ TEST_F(StabilityAlarmTest, LowDampingWarnsBelowTheLimitAndClearsBeyondTheHystere
   ASSERT_NE(lowDamping(), nullptr);
   EXPECT_EQ(lowDamping()->severity, state::Severity::kWarning);
   EXPECT_EQ(lowDamping()->text,
-            "rotor at 100.0 rad/s: log decrement 0.099, below 0.1: "
-            "add damping outside the shaft");
+            "rotor at 100.0 rad/s (955 rpm): log decrement 0.099, below 0.1: "
+            "add external damping");
   for (int step = 0; step < 20; ++step) {
     alarm_.update(marginOf(2.0 + step, kStable, 0.101), list_);
   }
@@ -240,8 +242,8 @@ TEST(StabilityAlarm, ADecayRateLimitIsWatchedWhenSetAndOffAtZero) {
   on.update(marginOf(0.1, kStable, 0.01, 0.4), list);
   ASSERT_EQ(list.active().size(), 1u);
   EXPECT_EQ(list.active()[0].text,
-            "rotor at 100.0 rad/s: decay rate 0.4 1/s, below 0.5 1/s: "
-            "add damping outside the shaft");
+            "rotor at 100.0 rad/s (955 rpm): decay rate 0.4 1/s, below 0.5 1/s: "
+            "add external damping");
   on.update(marginOf(1.0, kStable, 0.01, 0.6), list);
   on.update(marginOf(2.0, kStable, 0.01, 0.6), list);
   EXPECT_TRUE(list.active().empty());
@@ -273,8 +275,8 @@ TEST_F(StabilityAlarmTest, ARotorAndItsShapesThatDisagreeAreAWarning) {
   ASSERT_NE(unstable(), nullptr);
   EXPECT_EQ(unstable()->severity, state::Severity::kWarning);
   EXPECT_EQ(unstable()->text,
-            "rotor at 100.0 rad/s: verdict uncertain, the rotor has a decay rate of -0.2 1/s, its "
-            "few shapes of 0.5 1/s: keep more modes");
+            "rotor at 100.0 rad/s (955 rpm): verdict uncertain, decay rate -0.2 1/s of the "
+            "full-order model, 0.5 1/s of the reduced-order model: retain more modes");
   alarm_.update(marginOf(1.0, kUnstable, -0.05, -2.5), list_);
   EXPECT_EQ(unstable()->severity, state::Severity::kDanger);
 }

@@ -41,7 +41,7 @@ TEST(StartUp, MultipliedLevelsAreAnAlertWhileTheShaftGainsSpeed) {
   watched.run(1.0);
   ASSERT_NE(noticeOf(watched), nullptr);
   EXPECT_EQ(noticeOf(watched)->severity, state::Severity::kInfo);
-  EXPECT_NE(noticeOf(watched)->text.find("3 times as large"), std::string::npos);
+  EXPECT_NE(noticeOf(watched)->text.find("multiplied by 3"), std::string::npos);
   watched.run(2.0);
   EXPECT_EQ(noticeOf(watched), nullptr);
   EXPECT_EQ(watched.count(alert_type::kTripMultiplied, false), 1u);

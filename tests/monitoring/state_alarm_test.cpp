@@ -56,9 +56,9 @@ TEST(StateAlarm, AnErrorBeyondWhatIsPromisedWarns) {
   const state::Alert* alert = list.find("rods", alert_type::kAccuracyLost);
   ASSERT_NE(alert, nullptr);
   EXPECT_EQ(alert->severity, state::Severity::kWarning);
-  EXPECT_EQ(alert->text,
-            "rods: error about 3e-06 over its horizon, more than its tolerance 1e-06: shorten the "
-            "step");
+  EXPECT_EQ(
+      alert->text,
+      "rods: error about 3e-06 over the horizon, above the tolerance 1e-06: shorten the step");
   alarm.updateAccuracy(4.0, 1e-7, 1e-6, list);
   alarm.updateAccuracy(10.0, 1e-7, 1e-6, list);
   EXPECT_TRUE(list.active().empty());
@@ -112,7 +112,7 @@ TEST(StoppedSystem, IsToldWhereItsCauseDoesNotArrive) {
   alarm.updateStopped(0.0, StepStatus::kOk, "", list);
   alarm.updateStopped(1.0, StepStatus::kNotFinite, "", list);
   ASSERT_EQ(list.active().size(), 1u);
-  EXPECT_EQ(list.active().front().text, "rotor: stopped, and not told why");
+  EXPECT_EQ(list.active().front().text, "rotor: stopped, cause not reported");
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Cause{StepStatus::kNotFinite, "NOT_FINITE", "state not finite"},
                     Cause{StepStatus::kNotConverged, "STOPPED", "implicit step did not converge"},
                     Cause{StepStatus::kOutOfRange, "STOPPED",
-                          "its shaft runs at a speed that it was not prepared for"}),
+                          "the speed of its shaft is outside the prepared range"}),
     [](const auto& test) { return std::to_string(static_cast<int>(test.param.status)); });
 
 TEST(StateAlarm, AStopForAnotherCauseTakesThePlaceOfTheOneBefore) {

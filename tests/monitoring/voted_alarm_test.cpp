@@ -70,8 +70,7 @@ TEST(VotedAlarm, OneOfThreeIsNotEnoughAndTwoAre) {
   ASSERT_NE(voters.alert(), nullptr);
   EXPECT_EQ(voters.alert()->severity, state::Severity::kWarning) << "on danger they do not agree";
   EXPECT_NEAR(voters.alert()->amplitude, kWide, 0.002 * kWide) << "what two of them are above";
-  EXPECT_EQ(
-      voters.alert()->text.find("a: 2 of 3 sources vibrate beyond the alert level 0.5 mm (b "), 0u)
+  EXPECT_EQ(voters.alert()->text.find("a: 2 of 3 sources above the alert level 0.5 mm (b "), 0u)
       << voters.alert()->text;
   voters.tell({kTooWide, kTooWide, kWide}, 0.3);
   EXPECT_EQ(voters.alert()->severity, state::Severity::kDanger);
@@ -85,15 +84,14 @@ TEST(VotedAlarm, ASourceThatIsNotOkDoesNotVote) {
   Voters voters;
   voters.tell({kTooWide, kBroken, kCalm}, 5.0);
   EXPECT_EQ(voters.alert(), nullptr);
-  EXPECT_EQ(voters.monitor.status(voters.time, false).not_ok.at(0),
-            "does not vote: b not finite: x");
+  EXPECT_EQ(voters.monitor.status(voters.time, false).not_ok.at(0), "not voting: b not finite: x");
   voters.tell({kTooWide, 9.0e-3, kCalm}, 5.0);  // beyond its range
   EXPECT_EQ(voters.alert(), nullptr);
   voters.tell({kTooWide, kSilent, kCalm}, 5.0);
   EXPECT_EQ(voters.alert(), nullptr);
   voters.tell({kTooWide, kBroken, kTooWide}, 0.3);
   ASSERT_NE(voters.alert(), nullptr) << "the two that are left agree";
-  EXPECT_NE(voters.alert()->text.find("; not OK: b)"), std::string::npos) << voters.alert()->text;
+  EXPECT_NE(voters.alert()->text.find("; bad data: b)"), std::string::npos) << voters.alert()->text;
 }
 
 TEST(VotedAlarm, ASourceThatFailsClearsNothing) {
@@ -167,7 +165,7 @@ voting:
       "voting.roter: unknown rotor of the scene; did you mean 'rotor'?",
       "voting.rotor.of[1]: must be a rotor of the scene or one of its stations, found "
       "'rotor_nod_1'; did you mean 'rotor_node_1'?",
-      "voting.rotor.of[2]: rotor stands twice: nobody votes twice",
+      "voting.rotor.of[2]: duplicate: rotor is already in the list",
       "voting.rotor.agree: must be",
       "voting.rotor.danger: must be above alert, 0.002 m, found 0.001",
       "voting.rotor.range: must be above the levels, 0.001 m, found 0.001",

@@ -47,9 +47,10 @@ TEST(WatchedScene, TheSameSceneInOtherWordsIsTheSame) {
 TEST(WatchedScene, AnotherSceneIsReportedWithWhereItDiffers) {
   WatchedScene scene = sceneOfMonitor();
   scene.take(told(another()), 1);
-  EXPECT_NE(scene.mismatch().find("another scene (field.yaml) than the monitor has (own.yaml): "
-                                  "systems.rotor.parameters.mass is 3 there, 2 here"),
-            std::string::npos)
+  EXPECT_NE(
+      scene.mismatch().find("the scene of the twin (field.yaml) differs from that of the monitor "
+                            "(own.yaml): systems.rotor.parameters.mass is 3 there, 2 here"),
+      std::string::npos)
       << scene.mismatch();
   scene.take(told(kOwn), 1);
   EXPECT_EQ(scene.mismatch(), "");

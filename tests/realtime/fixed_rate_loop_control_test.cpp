@@ -96,7 +96,7 @@ TEST(FixedRateLoopControl, ACycleThatThrowsEndsTheLoopWhichSaysSo) {
   loop.start([](std::int64_t) -> bool { throw std::runtime_error("broken shaft"); });
   waitForEnd(loop);
   ASSERT_EQ(loop.status().warnings.size(), 1U);
-  EXPECT_EQ(loop.status().warnings[0], "the loop has ended: its cycle threw: broken shaft");
+  EXPECT_EQ(loop.status().warnings[0], "the loop has ended: its cycle failed: broken shaft");
 }
 
 TEST(FixedRateLoopControl, WithoutPrivilegesIgnoreRunsAsAnyOtherThread) {

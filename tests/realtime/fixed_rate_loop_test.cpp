@@ -189,7 +189,7 @@ TEST(FixedRateLoop, SaysWhenThereIsNoSuchProcessor) {
   loop.start([](std::int64_t) { return false; });
   const std::vector<std::string> warnings = loop.status().warnings;
   EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
-    return warning.find("not kept to processor") != std::string::npos;
+    return warning.find("not pinned to processor") != std::string::npos;
   }));
   waitForEnd(loop);
   options.cpu = -2;

@@ -163,7 +163,7 @@ TEST(OverrunPolicy, AnUnknownNameIsRefusedWithWhatIsExpected) {
     parseOverrunPolicy("Skip");
     FAIL() << "accepted";
   } catch (const Refusal& error) {
-    EXPECT_STREQ(error.what(), "overrun policy: expected skip, catch_up or stop, found \"Skip\"");
+    EXPECT_STREQ(error.what(), "overrun policy: must be skip, catch_up or stop, found \"Skip\"");
   }
 }
 

@@ -44,7 +44,7 @@ TEST(RealtimeMode, AnUnknownNameIsRefusedWithWhatIsExpected) {
     parseRealtimeMode("always");
     FAIL() << "accepted";
   } catch (const Refusal& error) {
-    EXPECT_STREQ(error.what(), "realtime: expected enforce, warn or ignore, found \"always\"");
+    EXPECT_STREQ(error.what(), "realtime: must be enforce, warn or ignore, found \"always\"");
   }
 }
 

@@ -89,7 +89,7 @@ class CheckpointOfTheTwin(NodeTrial):
         last = max(step for _, step in lived)
         second = self.begin('_resume:=' + self.file)
         self.assertTrue(wait_until(lambda: self.newest() > last + 100), self.log(second))
-        self.assertTrue(self.says(second, 'goes on from step [1-9]'), self.log(second))
+        self.assertTrue(self.says(second, 'resumed from step [1-9]'), self.log(second))
         for topic, _ in TOPICS:
             both = [key for key in list(self.heard) if key in lived and key[0] == topic]
             self.assertGreater(len(both), 50, topic)
@@ -102,7 +102,7 @@ class CheckpointOfTheTwin(NodeTrial):
         self.end(first)
         ended = self.says(first, r'stopped after (\d+) steps').group(1)
         second = self.begin('_resume:=' + self.file, '_checkpoint:=' + self.file)
-        self.assertTrue(wait_until(lambda: self.says(second, 'goes on from step %s,' % ended)), self.log(second))
+        self.assertTrue(wait_until(lambda: self.says(second, 'resumed from step %s,' % ended)), self.log(second))
         self.assertTrue(wait_until(lambda: self.newest() > int(ended) + 100))
 
     def refused(self, words):
@@ -120,7 +120,7 @@ class CheckpointOfTheTwin(NodeTrial):
         load_scene(self.scene)
         with open(self.file, 'wb') as file:
             file.write(whole[:len(whole) // 2])
-        self.refused('run.checkpoint: is torn: must have [0-9]+ bytes')
+        self.refused('run.checkpoint: truncated: must have [0-9]+ bytes')
 
     def begin_and_wait(self):
         process = self.begin('_checkpoint:=' + self.file)

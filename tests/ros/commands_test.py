@@ -1,5 +1,5 @@
 """Commands go from ROS to LCM and from LCM to a twin on ROS, of one commander at a time; who else commands is told whose
-turn it is, but may always pause. What is malformed, or comes out of a log, is not carried out."""
+turn it is, but may always pause. What is malformed, or comes a played log, is not carried out."""
 import itertools
 import os
 import socket
@@ -51,7 +51,7 @@ class Commands(NodeTrial):
         self.start('simulation_node', '_realtime:=ignore', '_lcm_url:=')
         self.start('command_bridge_node', '__name:=taker', '_lease:=%g' % LEASE)
         self.remote = self.start('command_bridge_node', '__name:=remote', '_role:=send')
-        self.assertTrue(wait_until(lambda: self.diagnosed('taker: commands', OK, 'nobody commands')),
+        self.assertTrue(wait_until(lambda: self.diagnosed('taker: commands', OK, 'no commander')),
                         '\n'.join(map(self.log, self.processes)) + str(self.status))
         for service in ('pause', 'resume', 'step', 'set_speed', 'set_parameter', 'set_input'):
             rospy.wait_for_service('/simulation_node/' + service, 30)
@@ -104,9 +104,9 @@ class Commands(NodeTrial):
         answer = self.ask('set_parameter', SetParameter, 'rotor', 'damping', -1.0, 0.0, [], [])
         self.assertFalse(answer.success)
         self.assertIn('must be', answer.message, 'the words of the simulation')
-        self.assertTrue(wait_until(lambda: self.diagnosed('taker: commands', OK, '^/remote on .* commands')))
+        self.assertTrue(wait_until(lambda: self.diagnosed('taker: commands', OK, '^/remote on .* has the command')))
         values = {value.key: value.value for value in self.status['taker: commands'].values}
-        self.assertGreater(float(values['s from sending to the answer, 50 %']), 0.0)
+        self.assertGreater(float(values['time from command to answer, 50 % [s]']), 0.0)
 
     def test_one_commander_at_a_time(self):
         speed = ('set_speed', 'shaft', [('speed', 30.0), ('max_acceleration', 50.0), ('max_jerk', 0.0)])
@@ -115,7 +115,7 @@ class Commands(NodeTrial):
         self.assertTrue(answer.done, answer.message)
         answer = self.command('second', *speed)
         self.assertFalse(answer.done)
-        self.assertRegex(answer.message, r'^first commands, for [0-9.]+ s more')
+        self.assertRegex(answer.message, r'^first has the command for another [0-9.]+ s')
         self.assertIn('first commands', self.ask('resume', Trigger).message)
         self.assertTrue(wait_until(lambda: self.diagnosed('taker: commands', WARN, 'commands are refused')))
         self.assertTrue(self.command('first', *speed).done)
@@ -132,7 +132,7 @@ class Commands(NodeTrial):
         name = 'taker: commands'
         self.assertFalse(self.diagnosed(name, ERROR))
         second = self.start('command_bridge_node', '__name:=second')
-        self.assertTrue(wait_until(lambda: self.diagnosed(name, ERROR, '/second on .* takes the commands of TWIN_')))
+        self.assertTrue(wait_until(lambda: self.diagnosed(name, ERROR, '/second on .* also executes the commands of TWIN_')))
         self.assertTrue(wait_until(lambda: self.diagnosed('second: commands', ERROR, '/taker on ')))
         self.end(second)
         self.assertTrue(wait_until(lambda: self.diagnosed(name, OK)), 'forgotten when it has gone')
@@ -144,13 +144,13 @@ class Commands(NodeTrial):
         time.sleep(0.3)
         self.assertTrue(self.command('second', 'pause').done)
         self.assertTrue(wait_until(lambda: ('first', number) in self.answers, 10))
-        self.assertIn('ended by a pause', self.answers['first', number].message)
+        self.assertIn('interrupted by a pause', self.answers['first', number].message)
 
     def test_what_is_not_carried_out(self):
         for words, arguments, more in [
-                ('out of a log', ('resume',), {'age': 60.0}),
+                ('a played log', ('resume',), {'age': 60.0}),
                 ("found 'resum'; did you mean 'resume'", ('resum',), {}),
-                ('speed: is missing; .*torque: is none of its keys', ('set_speed', 'shaft', [('torque', 1.0)]), {}),
+                ('speed: missing; .*torque: unknown key', ('set_speed', 'shaft', [('torque', 1.0)]), {}),
                 ('steps: must be a whole number', ('step', '', [('steps', -1.0)]), {}),
                 ("drive: must be a drive of the scene, found 'shaff'",
                  ('set_speed', 'shaff', [('speed', 1.0), ('max_acceleration', 1.0), ('max_jerk', 0.0)]), {})]:

@@ -51,7 +51,7 @@ TEST(FollowText, TellsParametersToTheirDeviationsAndWhatIsNotUsed) {
             (std::vector<std::string>{"stiffness 7123 +- 12 N/m", "coulomb1 0.00029 +- 5.9e-05 N m",
                                       "gone nan", "known 0.25", "probes/y refused"}));
   follow.mismatch = 1.21;
-  EXPECT_EQ(followLines(follow).back(), "residuals 1.10 of those expected");
+  EXPECT_EQ(followLines(follow).back(), "residual 1.10 of that expected");
   follow.parameter_unit.clear();  // no message of ours
   follow.channel.clear();
   EXPECT_EQ(followLines(follow).size(), 1U);

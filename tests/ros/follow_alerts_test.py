@@ -44,7 +44,7 @@ class FollowAlerts(NodeTrial):
     def test_drift_and_mismatch_are_raised_and_clear(self):
         self.tell_until(lambda: 'DRIFT' in self.alerts, drift_parameter='stiffness', drift_from=1.0e4, drift_to=9.7e3,
                         drift_since=1.5)
-        self.assertIn('stiffness has gone from 1e+04 to 9700 N/m (-3 %)', self.alerts['DRIFT'])
+        self.assertIn('stiffness changed from 1e+04 to 9700 N/m (-3 %)', self.alerts['DRIFT'])
         self.tell_until(lambda: 'DRIFT' not in self.alerts)
         self.tell_until(lambda: 'MODEL_MISMATCH' in self.alerts, mismatch=1.3)
         self.tell_until(lambda: 'SENSOR' in self.alerts, shaft_known=False)

@@ -68,5 +68,5 @@ class Follow(NodeTrial):
         self.end(self.simulation)
         # Beside it a machine that is held up, as on a loaded computer, has a clock that is off.
         self.assertTrue(wait_until(lambda: 'SENSOR' in self.alerts and
-                                   'probes/x is silent' in self.alerts['SENSOR'].text), self.alerts)
+                                   'probes/x has no new samples' in self.alerts['SENSOR'].text), self.alerts)
         self.assertEqual(self.follow.channel_status[0], FollowState.SILENT)

@@ -123,11 +123,11 @@ class Hostile(NodeTrial):
         monitor[0].wait()
         self.status.clear()
         monitor = self.start('monitor_node')
-        self.expect(lambda: self.diagnosed('monitor_node: monitor', ERROR, r'runs another scene .*shaft\.speed is 58 there, 8 here'),
+        self.expect(lambda: self.diagnosed('monitor_node: monitor', ERROR, r'differs from that of the monitor .*shaft\.speed is 58 there, 8 here'),
                     monitor)
         self.end(simulation)
         self.begin(SLOW)  # another run, whose scene it has
-        self.expect(lambda: self.says(monitor, 'another run is watched from now on'), monitor)
+        self.expect(lambda: self.says(monitor, 'another run is monitored from now on'), monitor)
         self.expect(lambda: self.diagnosed('monitor_node: monitor', OK, 'no alerts'), monitor)
 
     def test_bridge_and_displays_keep_to_one_run(self):
@@ -140,11 +140,11 @@ class Hostile(NodeTrial):
         self.expect(lambda: self.steps > 4000 and speeds and self.says(terminal, 'rotor:'), simulation, bridge)
         self.scene(UNSTABLE, '/other')
         other = self.start('simulation_node', '_realtime:=ignore', '_lcm_prefix:=TWIN_', '__ns:=/other')
-        self.expect(lambda: self.says(watch, r'/other/simulation_node on .* sends as this twin, too.* are left out'), watch)
+        self.expect(lambda: self.says(watch, r'duplicate publisher: /other/simulation_node on .* ignored'), watch)
         self.expect(lambda: self.left_out() > 1000, bridge)
         self.end(other)
         intruder = self.start('simulation_node', '_realtime:=ignore', '_lcm_url:=', '__name:=intruder')
-        self.expect(lambda: self.says(terminal, '/intruder publishes as this twin, too, beside /simulation_node'), terminal)
+        self.expect(lambda: self.says(terminal, '/intruder also publishes as this twin, beside /simulation_node'), terminal)
         self.end(intruder)
         self.assertEqual(speeds, {SLOW})
         # One that takes its place is followed.
@@ -155,7 +155,7 @@ class Hostile(NodeTrial):
 
     def left_out(self):
         status = self.status.get('mirror/lcm_bridge_node: received from LCM')
-        return max((int(v.value) for v in status.values if v.key.startswith('left out, of other')), default=0) if status else 0
+        return max((int(v.value) for v in status.values if v.key.startswith('ignored, of other')), default=0) if status else 0
 
     def test_an_input_that_is_set_is_shown(self):
         simulation = self.begin(SLOW)

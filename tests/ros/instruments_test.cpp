@@ -181,7 +181,7 @@ TEST(MarginGauge, WhatIsNotLiveShowsNothing) {
   EXPECT_TRUE(isShown(part(markers, "margin_track")));
   EXPECT_TRUE(isShown(part(markers, "speed_pointer"))) << "the state itself is live";
   EXPECT_EQ(part(markers, "margin_caption").text, "margin: the last verdict is 12 s old");
-  EXPECT_EQ(marginText({}), "not judged yet");
+  EXPECT_EQ(marginText({}), "not evaluated yet");
 }
 
 TEST(MarginGauge, AVerdictIsLiveForThreeSecondsOrWhileTheSimulationIsHeld) {
@@ -194,7 +194,7 @@ TEST(MarginGauge, AVerdictIsLiveForThreeSecondsOrWhileTheSimulationIsHeld) {
   EXPECT_EQ(liveMargin(margin, 11.8, false, "").why_not, "the last verdict is 12 s old");
   EXPECT_TRUE(liveMargin(margin, 100.0, true, "").margin);
   EXPECT_FALSE(std::isfinite(liveMargin(margin, 100.0, true, "").age));
-  EXPECT_FALSE(liveMargin(margin, 0.1, true, "the monitor is silent for 5 s").margin);
+  EXPECT_FALSE(liveMargin(margin, 0.1, true, "no message from the monitor for 5 s").margin);
   EXPECT_FALSE(liveMargin(nullptr, 0.0, false, "").margin);
 }
 
@@ -313,7 +313,7 @@ TEST(AlarmList, IsBySeverityAndCountsWhatItLeavesOut) {
   AlarmList list = alarmList(alerts, 20);
   EXPECT_EQ(list.title, "3 alarms, 1 of them danger");
   EXPECT_EQ(list.danger, std::vector<std::string>{"DANGER fan UNSTABLE"});
-  EXPECT_EQ(list.warning, std::vector<std::string>{"WARNING pump LOW_DAMPING (seen)"});
+  EXPECT_EQ(list.warning, std::vector<std::string>{"WARNING pump LOW_DAMPING (acknowledged)"});
   EXPECT_EQ(list.info, std::vector<std::string>{"INFO twin LCM_LOST"});
   list = alarmList(alerts, 1);
   EXPECT_EQ(list.danger.size(), 1U);
@@ -334,24 +334,24 @@ LoopStatistics loopOf(std::uint64_t overruns, double achieved) {
 
 TEST(LoopHealth, TellsLateStepsTheRealTimeFactorAndSilence) {
   LoopHealth health;
-  EXPECT_EQ(health.lines(0.0), std::vector<std::string>{"loop: never heard"});
+  EXPECT_EQ(health.lines(0.0), std::vector<std::string>{"loop: no message received"});
   LoopHealth of_a_follower;
   of_a_follower.setFollowing();
-  EXPECT_EQ(of_a_follower.lines(0.0), std::vector<std::string>{"follows its machine"});
+  EXPECT_EQ(of_a_follower.lines(0.0), std::vector<std::string>{"estimates its machine"});
   health.take(loopOf(3, 1.0), 10.0);
   EXPECT_EQ(health.severity(10.5), Alert::INFO) << "late long ago, before anybody looked";
   EXPECT_EQ(health.lines(10.5),
-            (std::vector<std::string>{"loop: 1000 steps/s", "  1.00 of real time (1 asked)",
-                                      "  late 3, left out 0", "  unpublished 0",
-                                      "  wakes 12 us late", "  steps in 1.3 ms"}));
+            (std::vector<std::string>{"loop: 1000 steps/s", "  1.00 of real time (1 requested)",
+                                      "  overruns 3, skipped 0", "  unpublished 0",
+                                      "  wake-up latency 12 us", "  step takes 1.3 ms"}));
   health.take(loopOf(5, 1.0), 11.0);
   EXPECT_EQ(health.severity(11.5), Alert::WARNING);
-  EXPECT_EQ(health.lines(11.5)[4], "  2 of them just now");
+  EXPECT_EQ(health.lines(11.5)[4], "  2 of them recently");
   health.take(loopOf(5, 1.0), 12.0);
   EXPECT_EQ(health.severity(12.5), Alert::INFO);
   health.take(loopOf(5, 0.8), 13.0);
   EXPECT_EQ(health.severity(13.5), Alert::WARNING) << "it does not keep up";
-  EXPECT_EQ(health.lines(20.0), std::vector<std::string>{"loop: silent for 7 s"});
+  EXPECT_EQ(health.lines(20.0), std::vector<std::string>{"loop: no message for 7 s"});
   EXPECT_EQ(health.severity(20.0), Alert::WARNING);
   health.take(loopOf(0, 1.0), 21.0);
   EXPECT_EQ(health.severity(21.5), Alert::INFO) << "its counts began anew";
@@ -359,7 +359,7 @@ TEST(LoopHealth, TellsLateStepsTheRealTimeFactorAndSilence) {
   held.paused = true;
   health.take(held, 22.0);
   EXPECT_EQ(health.severity(22.5), Alert::INFO);
-  EXPECT_EQ(health.lines(22.5)[1], "  held");
+  EXPECT_EQ(health.lines(22.5)[1], "  paused");
 }
 
 TEST(TwinPanel, ASilentMonitorsAlarmsAreNotPassedOffAsTheLatest) {
@@ -376,8 +376,8 @@ TEST(TwinPanel, ASilentMonitorsAlarmsAreNotPassedOffAsTheLatest) {
     return std::string();
   };
   EXPECT_EQ(title(""), "1 alarm, 1 of them danger");
-  EXPECT_EQ(title("the monitor is silent for 5 s: nothing is being watched"),
-            "alarms not known: 1 alarm, 1 of them danger before");
+  EXPECT_EQ(title("no message from the monitor for 5 s: nothing is monitored"),
+            "alarms unknown, last: 1 alarm, 1 of them danger");
 }
 
 ControllerState controllerOf(std::vector<double> output) {

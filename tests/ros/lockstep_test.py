@@ -73,8 +73,8 @@ class InLockstep(NodeTrial):
         self.await_steps('slow', 20)
 
         slow.kill()
-        self.assertTrue(wait_until(lambda: self.diagnosed(LOOP, ERROR, 'nothing is acknowledged by /slow')))
-        self.assertRegex(self.log(self.twin), 'paused at step [0-9]+: nothing acknowledged for 1 s by /slow')
+        self.assertTrue(wait_until(lambda: self.diagnosed(LOOP, ERROR, 'no acknowledgement by /slow')))
+        self.assertRegex(self.log(self.twin), 'paused at step [0-9]+: no acknowledgement for 1 s by /slow')
         self.assertTrue(wait_until(lambda: loops[-1].paused))
         self.assertLessEqual(self.steps('fast')[-1], self.steps('slow')[-1] + 2, 'it did not go on by itself')
         self.assertTrue(call('resume').success)

@@ -2,6 +2,7 @@
 with topics, services, scene and alerts, and LCM has no hole."""
 import json
 import os
+import signal
 import subprocess
 import threading
 import time
@@ -92,6 +93,19 @@ class MasterRestart(NodeTrial):
         time.sleep(2.0)
         self.assertIsNone(monitor[0].poll())
         self.end(monitor)
+
+    def test_one_that_answers_no_more_does_not_keep_a_node(self):
+        nodes = [self.start_node('simulation_node', '_realtime:=ignore'), self.start_node('monitor_node'),
+                 self.start_node('lcm_bridge_node', '_lcm_prefix:=OTHER', '__ns:=/other')]
+        self.assertTrue(wait_until(self.registered))
+        self.core.send_signal(signal.SIGSTOP)  # it accepts calls, and answers none
+        try:
+            for process, _ in nodes:
+                process.send_signal(signal.SIGINT)
+            for process, _ in nodes:
+                process.wait(PATIENCE)
+        finally:
+            self.core.send_signal(signal.SIGCONT)
 
     def test_everything_is_back(self):
         log = self.path('run.lcmlog')

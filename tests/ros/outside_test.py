@@ -103,7 +103,7 @@ class Outside(NodeTrial):
         self.start('simulation_node', '_realtime:=ignore')
         monitor, _ = self.start('monitor_node', '_latch:=all', '_history:=' + history)
         self.assertTrue(wait_until(self.in_danger))
-        self.assertTrue(wait_until(lambda: 'the history of the alarms is not kept' in self.problems()))
+        self.assertTrue(wait_until(lambda: 'the alarm history is not saved' in self.problems()))
         os.rmdir(history)
         self.assertTrue(wait_until(lambda: os.path.exists(history) and 'UNSTABLE' in open(history).read()))
         monitor.send_signal(signal.SIGKILL)

@@ -20,6 +20,7 @@ function(whirl_twin_rostest name)
     COMMAND ${PROJECT_SOURCE_DIR}/tests/ros/in_private_network
       env -u ROS_HOSTNAME ROS_IP=127.0.0.1 ROS_HOME=${PROJECT_BINARY_DIR}/ros_home/${name}
       ${CATKIN_DEVEL_PREFIX}/env.sh ${ROSTEST} ${CMAKE_CURRENT_SOURCE_DIR}/trials.test "trials:=${trials}")
-  set_tests_properties(rostest_${name} PROPERTIES LABELS rostest RESOURCE_LOCK live COST 100 TIMEOUT 520
+  set_tests_properties(rostest_${name} PROPERTIES LABELS rostest TIMEOUT 700
     ENVIRONMENT "${whirl_twin_trial_programs}" FAIL_REGULAR_EXPRESSION "TESTS: 0[^0-9]")
+  whirl_twin_live(rostest_${name})
 endfunction()

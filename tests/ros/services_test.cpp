@@ -133,7 +133,7 @@ TEST_F(Services, aPauseEndsStepsThatAreUnderWay) {
   listening.join();
   EXPECT_TRUE(pause.success);
   EXPECT_FALSE(response.success);
-  EXPECT_EQ(response.message, "ended by a pause at step " + std::to_string(response.step));
+  EXPECT_EQ(response.message, "interrupted by a pause at step " + std::to_string(response.step));
   EXPECT_EQ(step(1).step, response.step + 1) << "it stands where the pause put it";
 }
 

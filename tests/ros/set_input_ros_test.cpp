@@ -77,7 +77,7 @@ TEST(SetInput, refusesWhatThereIsNot) {
   EXPECT_EQ(setInput("rotr", "force_x", 1.0, 1.0).message,
             "system: must be a system of the scene, found 'rotr'; did you mean 'rotor'?");
   EXPECT_EQ(setInput("rotor", "force_y", 1.0, 1.0).message,
-            "input: must be one that the scene gives as a number, found 'force_y'; did you mean "
+            "input: must be an input given as a number in the scene, found 'force_y'; did you mean "
             "'force_x'?");
   EXPECT_FALSE(setInput("rotor", "force_x", std::numeric_limits<double>::quiet_NaN(), 1.0).success);
   EXPECT_FALSE(setInput("rotor", "force_x", 1.0, 0.0).success);

@@ -52,6 +52,6 @@ class Visualization(NodeTrial):
         self.assertFalse(self.shown('rotor/speed_avoid'))
         self.assertTrue(self.shown('rotor/speed_pointer'))  # the states go on
         # The verdict is too old first, then its monitor is missed.
-        self.assertTrue(wait_until(lambda: self.text('rotor/margin_caption') == 'margin: the monitor is silent'),
+        self.assertTrue(wait_until(lambda: self.text('rotor/margin_caption') == 'margin: no message from the monitor'),
                         self.text('rotor/margin_caption'))
-        self.assertTrue(self.text('(twin)/title').startswith('alarms not known'))
+        self.assertTrue(self.text('(twin)/title').startswith('alarms unknown'))

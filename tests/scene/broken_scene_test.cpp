@@ -97,17 +97,17 @@ INSTANTIATE_TEST_SUITE_P(
                rotorScene("mass: 1 lbf, stiffness: 100, speed: 5"),
                {"systems.rotor.parameters.mass: must be > 0 kg, found '1 lbf': 'lbf' is no unit of "
                 "kg"}},
-        Broken{"NamesOfOtherPrograms",
-               "{step: 0.001, systems: {r: {model: flexible_rotor, parameters: {E: 2e11, density: "
-               "7800, speed: 1, elements: [{L: 1, outer_diameter: 0.1}], bearings: [{node: 0, "
-               "n_link: 2}]}}}}",
-               {"systems.r.parameters.E: unknown parameter of flexible_rotor; here it is "
-                "'youngs_modulus'",
-                "systems.r.parameters.youngs_modulus: missing; must be > 0 Pa",
-                "systems.r.parameters.elements[0].L: unknown key of elements; here it is 'length'",
-                "systems.r.parameters.elements[0].length: missing; must be > 0 m",
-                "systems.r.parameters.bearings[0].n_link: unknown key of bearings; here it is "
-                "'pedestals'"}},
+        Broken{
+            "NamesOfOtherPrograms",
+            "{step: 0.001, systems: {r: {model: flexible_rotor, parameters: {E: 2e11, density: "
+            "7800, speed: 1, elements: [{L: 1, outer_diameter: 0.1}], bearings: [{node: 0, "
+            "n_link: 2}]}}}}",
+            {"systems.r.parameters.E: unknown parameter of flexible_rotor; write 'youngs_modulus'",
+             "systems.r.parameters.youngs_modulus: missing; must be > 0 Pa",
+             "systems.r.parameters.elements[0].L: unknown key of elements; write 'length'",
+             "systems.r.parameters.elements[0].length: missing; must be > 0 m",
+             "systems.r.parameters.bearings[0].n_link: unknown key of bearings; write "
+             "'pedestals'"}},
         Broken{"Hexadecimal",
                rotorScene("mass: 0x10, stiffness: 100, speed: 5"),
                {"systems.rotor.parameters.mass: must be > 0 kg, found '0x10': there is no unit "
@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
                {"systems.a.model: missing; must be the name of a model"}},
         Broken{"Twice",
                rotorScene("mass: 1, mass: 2, stiffness: 100, speed: 5"),
-               {"systems.rotor.parameters.mass: stands twice"}},
+               {"systems.rotor.parameters.mass: duplicate key"}},
         Broken{"KeyIsAList",
                rotorScene(kGood, "", ", [1, 2]: 3"),
                {"a key must be a name, found a list"}},
@@ -200,10 +200,10 @@ INSTANTIATE_TEST_SUITE_P(
                rotorScene(kGood, ", integrator: rungekutta4"),
                {"systems.rotor.integrator: must be the name of an integrator, found 'rungekutta4'; "
                 "did you mean 'runge_kutta_4'?"}},
-        Broken{"NoSystems", "{step: 1}", {"systems: missing; a scene has at least one system"}},
+        Broken{"NoSystems", "{step: 1}", {"systems: missing; a scene needs at least one system"}},
         Broken{"EmptySystems",
                "{step: 1, systems: {}}",
-               {"systems: a scene has at least one system, found none"}},
+               {"systems: a scene needs at least one system, found none"}},
         Broken{"SystemsAreAList",
                "{step: 1, systems: [1, 2]}",
                {"systems: must be a map of keys and values, found a list"}},
@@ -213,11 +213,13 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"SceneIsAList", "[1, 2]", {"must be a map of keys and values, found a list"}},
         Broken{"BadName",
                "{step: 1, systems: {2a: {model: jeffcott_rotor, parameters: {" + kGood + "}}}}",
-               {"systems.2a: a system is named by up to 48 letters, digits and _, a letter first"}},
+               {"systems.2a: the name of a system must have at most 48 letters, digits and _, a "
+                "letter first"}},
         Broken{"NamesThatDifferInCaseOnly",
                "{step: 1, systems: {Rotor: &r {model: jeffcott_rotor, parameters: {" + kGood +
                    "}}, rotor: *r}}",
-               {"systems.rotor: another system has this name but for upper and lower case"}}),
+               {"systems.rotor: duplicate: another system has this name (upper and lower case are "
+                "the same)"}}),
     kNames);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -229,7 +231,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "name a drive"}},
         Broken{"BothSpeedAndDrive",
                rotorScene(kGood, ", drive: shaft", kShaft),
-               {"systems.rotor.parameters.speed: the drive sets the speed: give one or the other"}},
+               {"systems.rotor.parameters.speed: the drive sets the speed: give drive or speed, "
+                "not both"}},
         Broken{"UnknownDrive",
                rotorScene(kNoSpeed, ", drive: shift", kShaft),
                {"systems.rotor.drive: must be a drive of the scene, found 'shift'; did you mean "
@@ -261,28 +264,26 @@ INSTANTIATE_TEST_SUITE_P(
                           ", drives: {shaft: {speed: 101, profile: [{speed: 20, max_acceleration: "
                           "1}, {speed: 53, max_acceleration: 5, max_jerk: 2}], avoid: {bands: "
                           "[{from: 100, to: 120}, {from: 40, to: 50}, {from: 56, to: 70}]}}}"),
-               {"drives.shaft.speed: must lie outside of the band from 100 to 120 rad/s that the "
-                "drive avoids, found 101",
-                "drives.shaft.profile[1].speed: must lie outside of the band from 40 to 70 rad/s "
-                "that the drive avoids, found 53"}},
+               {"drives.shaft.speed: must be outside the barred speed range from 100 to 120 rad/s, "
+                "found 101",
+                "drives.shaft.profile[1].speed: must be outside the barred speed range from 40 to "
+                "70 rad/s, found 53"}},
         Broken{"AvoidWhatIsNoBand",
                rotorScene(kNoSpeed, ", drive: shaft",
                           ", drives: {shaft: {avoid: {bands: [{from: 0, to: 5}, {from: 7, to: 6}, "
                           "{from: 1}], margin: 2, critical_speed: true}}}"),
-               {"drives.shaft.avoid.critical_speed: unknown key of what to avoid; did you mean "
+               {"drives.shaft.avoid.critical_speed: unknown key of barred speeds; did you mean "
                 "'critical_speeds'?",
                 "drives.shaft.avoid.bands[0].from: must be > 0 rad/s, found 0",
                 "drives.shaft.avoid.bands[1].to: must be greater than from, 7 rad/s, found 6",
                 "drives.shaft.avoid.bands[2].to: missing; must be from 0 to 1e+06 rad/s",
                 "drives.shaft.avoid.margin: must be from 0.001 to 0.9 of a critical speed, found 2",
-                "drives.shaft.avoid.margin: is one about critical_speeds: true"}},
+                "drives.shaft.avoid.margin: needs critical_speeds: true"}},
         Broken{"MotorAvoids",
                rotorScene(kNoSpeed + ", polar_inertia: 1", ", drive: shaft",
                           ", drives: {shaft: {motor: {torque: 1}, avoid: {bands: []}}}"),
-               {"drives.shaft.avoid: a motor's speed is an outcome: it can avoid nothing. A "
-                "controller of "
-                "type speed brings its shaft past bands: give them to it, as avoid or "
-                "critical_speeds"}},
+               {"drives.shaft.avoid: must not be given with a motor, whose speed is not "
+                "prescribed: give avoid or critical_speeds to a controller of type speed"}},
         Broken{"Motor",
                rotorScene(kNoSpeed, ", drive: shaft", ", drives: {shaft: {motor: {torque: 1}}}"),
                {"systems.rotor.parameters.polar_inertia: must be > 0 kg m^2 with a motor"}},
@@ -296,8 +297,8 @@ INSTANTIATE_TEST_SUITE_P(
                "rigid_disc_rotor, drive: shaft, integrator: exponential, parameters: {mass: 1, "
                "polar_inertia: 1, transverse_inertia: 1, stiffness_displacement: 1, "
                "stiffness_rotation: 1, frame: rotating}}}}",
-               {"systems.rotor.integrator: exponential needs matrices that do not change with the "
-                "drive's speed; gauss_legendre_6 or runge_kutta_4 will do"}}),
+               {"systems.rotor.integrator: exponential needs matrices independent of the drive's "
+                "speed; use gauss_legendre_6 or runge_kutta_4"}}),
     kNames);
 
 TEST(BrokenSceneWithManyErrors, NamesThemAllAtOnce) {

@@ -78,12 +78,13 @@ TEST(BuiltSystem, RefusesInTheWordsOfASceneFile) {
             "set_parameter: systems.rotor.parameters.dampin: unknown parameter of jeffcott_rotor; "
             "did you mean 'damping'?");
   EXPECT_EQ(refusalOf(rotor, "mass[0]", 1.0),
-            "set_parameter: systems.rotor.parameters.mass[0]: is one number: leave out what "
-            "follows the name");
+            "set_parameter: systems.rotor.parameters.mass[0]: is a single number: write the name "
+            "without an index");
   const BuiltScene shafts = build(sceneOf(kShaft));
-  EXPECT_EQ(refusalOf(*shafts.systems[0], "bearings[0].kx", 1.0),
-            "set_parameter: systems.shaft.parameters.bearings[0].kx: unknown number of bearings; "
-            "did you mean 'kxx'?");
+  EXPECT_EQ(
+      refusalOf(*shafts.systems[0], "bearings[0].kx", 1.0),
+      "set_parameter: systems.shaft.parameters.bearings[0].kx: unknown parameter of bearings; "
+      "did you mean 'kxx'?");
   EXPECT_EQ(refusalOf(*shafts.systems[1], "mass[0][0]", -1.0)
                 .find("set_parameter: systems.linear.parameters.mass: "),
             0u)

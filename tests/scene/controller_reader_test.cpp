@@ -64,17 +64,17 @@ TEST(ControllerReader, SaysAllThatIsWrongAtOnce) {
           "measures: [s.x], acts_on: [r.force_y], delay: 1.0, parameters: {kp: 1.0}}}",
           ", inputs: {force_x: 1.0}")),
       testing::ElementsAre(
-          testing::HasSubstr("controllers.2x: a controller is named by"),
-          testing::HasSubstr("controllers.pd.type: must be the name of a kind of controller, found "
+          testing::HasSubstr("controllers.2x: the name of a controller must have at most"),
+          testing::HasSubstr("controllers.pd.type: must be the name of a controller type, found "
                              "'pidd'; did you mean 'pid'?"),
           testing::HasSubstr("controllers.pd.rate: must be from 0.001 to 1e+07 Hz, found 0.0"),
           testing::HasSubstr("controllers.pd.delay: must be from 0 to 1000 s, found -1"),
           testing::HasSubstr(
               "controllers.pd.measures[0]: must be a coordinate, a rate or a station "
               "of a system, found 's.xx'; did you mean 's.x'?"),
-          testing::HasSubstr("controllers.pd.measures[1].direction: is for a rotor"),
-          testing::HasSubstr("controllers.pd.acts_on[0]: 's.force_x' is given by the system's "
-                             "inputs already"),
+          testing::HasSubstr("controllers.pd.measures[1].direction: needs a rotor"),
+          testing::HasSubstr(
+              "controllers.pd.acts_on[0]: 's.force_x' is already given by the system's inputs"),
           testing::HasSubstr("controllers.pd.acts_on[1]: must be an input of a system, found "
                              "'s.force_y'; did you mean 's.force_x'?"),
           testing::HasSubstr("controllers.pd.actuator.limits: unknown key of actuator"),
@@ -90,10 +90,10 @@ TEST(ControllerReader, SaysAllThatIsWrongAtOnce) {
 TEST(ControllerReader, NoneIsNamedAsASystem) {
   const std::string law =
       ": {type: pid, rate: 20.0, measures: [s.x], acts_on: [s.force_x], parameters: {kp: 1.0}}";
-  EXPECT_THAT(complaintsOf(withControllers("{S" + law + "}")),
-              testing::ElementsAre(testing::HasSubstr(
-                  "controllers.S: a system or a station of one has this name: the parameters of "
-                  "both would be told under it")));
+  EXPECT_THAT(
+      complaintsOf(withControllers("{S" + law + "}")),
+      testing::ElementsAre(testing::HasSubstr("controllers.S: duplicate: a system or a station has "
+                                              "this name, and parameters are published by name")));
   EXPECT_THAT(complaintsOf(withControllers("{drives" + law + "}")),
               testing::ElementsAre(testing::HasSubstr("controllers.drives: a controller cannot")));
 }
@@ -131,7 +131,7 @@ TEST(ControllerReader, FindsTheCriticalSpeedsThatAShaftIsBroughtPast) {
               testing::ElementsAre(testing::HasSubstr(
                   "controllers.s.parameters.margin: must be 0, or from 0.001 to 0.9")));
   EXPECT_THAT(complaintsOf(speedController(", margin: 0.1")),
-              testing::ElementsAre(testing::HasSubstr("is one about critical_speeds: true")));
+              testing::ElementsAre(testing::HasSubstr("needs critical_speeds: true")));
   EXPECT_THAT(complaintsOf(speedController(", retry_acceleration: 0.5")),
               testing::ElementsAre(testing::HasSubstr(
                   "controllers.s.parameters.retry_acceleration: must be at least")));

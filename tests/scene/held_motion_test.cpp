@@ -78,9 +78,9 @@ TEST(HeldMotion, WhatAnActuatorCannotHoldIsSaid) {
     partsOf(arm(1.0, 1.5, 9.0));
     FAIL() << "an actuator of 9 N m does not hold 9.79";
   } catch (const RunFailure& failure) {
-    EXPECT_THAT(failure.what(),
-                testing::HasSubstr("arm.torque would have to be 9.785 N m: the actuator of motor "
-                                   "gives 9"));
+    EXPECT_THAT(
+        failure.what(),
+        testing::HasSubstr("arm.torque = 9.785 N m: the actuator of motor is limited to 9"));
   }
 }
 

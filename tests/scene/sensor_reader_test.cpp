@@ -59,13 +59,14 @@ TEST(SensorReader, NamesEveryMistakeAtOnce) {
        "sensors.probes.channels.a.measures: must be a coordinate, a rate or a station of a system, "
        "found 'rotr.x'; did you mean 'rotor.x'?",
        "sensors.probes.channels.a.nois: unknown key of a sensor; did you mean 'noise'?",
-       "sensors.probes.channels.b.run_out: is of a rotor's surface",
+       "sensors.probes.channels.b.run_out: needs a displacement probe on a rotor",
        "sensors.probes.channels.c.measures: missing",
        "sensors.tacho.keyphasor: must be a drive of the scene, found 'shat'; did you mean 'shaft'?",
-       "sensors.tacho.rate: a keyphasor's pulses come when they come",
-       "sensors.Probes: other sensors have this name but for upper and lower case",
+       "sensors.tacho.rate: must not be given with a keyphasor",
+       "sensors.Probes: duplicate: other sensors have this name (upper and lower case are the "
+       "same)",
        "sensors.Probes.rate: must be from 0.001",
-       "sensors.Probes.channels: sensors have at least"}) {
+       "sensors.Probes.channels: sensors need at least"}) {
     EXPECT_NE(all.find(part), std::string::npos) << part << "\n" << all;
   }
 }

@@ -188,7 +188,7 @@ run: {analyze: true, speed: 0.0}
       "measure: {decay: margins.decay_rate}\noptimize: {maximize: decay, evaluations: 5}\n")));
   EXPECT_EQ(few.evaluations, 5U);
   EXPECT_FALSE(few.converged);
-  EXPECT_NE(few.ended.find("5 evaluations are used up"), std::string::npos) << few.ended;
+  EXPECT_NE(few.ended.find("limit of 5 evaluations was reached"), std::string::npos) << few.ended;
   // Without damping that turns with it, a rotor never becomes unstable.
   const Optimum never = optimumOf(readStudy(files.study(
       rest +

@@ -63,7 +63,7 @@ measure: {peak: max(rotor.whirl.radus), low: rotor.x, other: "critical_speed[0]"
 require: {peek: "< 1"}
 )");
   EXPECT_SAYS(said,
-              "vary.rotor.stifness: is no number of the scene; did you mean "
+              "vary.rotor.stifness: must be a number of the scene; did you mean "
               "'rotor.stiffness'?");
   EXPECT_SAYS(said, "vary.rotor.mass: must be > 0 kg, found -1");
   EXPECT_SAYS(said, "vary.rotor.damping.unifrom: unknown distribution; did you mean 'uniform'?");
@@ -71,7 +71,7 @@ require: {peek: "< 1"}
   EXPECT_SAYS(said, "run.duration: must be from 0 to 1e+09 s, found -1");
   EXPECT_SAYS(said, "run.analyse: unknown key of run; did you mean 'analyze'?");
   EXPECT_SAYS(said, "did you mean 'rotor.whirl.radius'?");
-  EXPECT_SAYS(said, "measure.low: rotor.x changes in a run");
+  EXPECT_SAYS(said, "measure.low: rotor.x changes during a run");
   EXPECT_SAYS(said, "did you mean 'critical_speeds[0]'?");
   EXPECT_SAYS(said, "require.peek: unknown measure");
 }
@@ -81,11 +81,13 @@ TEST(StudyReader, RefusesPathsThatAreNoNumber) {
   EXPECT_SAYS(refusalOf(files, varied("shaft.profile[2].speed", "{uniform: [1, 2]}")),
               "there are 2 rows, counted from 0");
   EXPECT_SAYS(refusalOf(files, varied("shaft.profile", "{uniform: [1, 2]}")),
-              "is not one number: name one below it");
-  EXPECT_SAYS(refusalOf(files, varied("rotor", "{uniform: [1, 2]}")), "is not one number");
-  EXPECT_SAYS(refusalOf(files, varied("nothing", "{uniform: [1, 2]}")), "is no number");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.model", "{uniform: [1, 2]}")), "is no number");
-  EXPECT_SAYS(refusalOf(files, varied("", "{uniform: [1, 2]}")), "is no number");
+              "is not a single number: name one of its parts");
+  EXPECT_SAYS(refusalOf(files, varied("rotor", "{uniform: [1, 2]}")), "is not a single number");
+  EXPECT_SAYS(refusalOf(files, varied("nothing", "{uniform: [1, 2]}")),
+              "must be a number of the scene");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.model", "{uniform: [1, 2]}")),
+              "must be a number of the scene");
+  EXPECT_SAYS(refusalOf(files, varied("", "{uniform: [1, 2]}")), "must be a number of the scene");
   EXPECT_EQ(refusalOf(files, varied("shaft.profile[1].speed", "{uniform: [180, 220]}")), "");
   EXPECT_EQ(refusalOf(files, varied("systems.rotor.parameters.mass", "{uniform: [1, 2]}")), "");
   EXPECT_EQ(refusalOf(files, varied("rotor.stiffness_y", "{uniform: [1, 2]}")), "");  // a default
@@ -102,8 +104,8 @@ design: grid
 run: analyze
 measure: {critical: "critical_speeds[0]"}
 )"),
-              "varies drives.shaft.profile[1].max_acceleration, which shaft.max_acceleration does "
-              "already");
+              "duplicate: drives.shaft.profile[1].max_acceleration is already varied by "
+              "shaft.max_acceleration");
 }
 
 TEST(StudyReader, RefusesDistributionsThatAreNone) {
@@ -116,7 +118,8 @@ TEST(StudyReader, RefusesDistributionsThatAreNone) {
   EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{normal: [1, 0]}")), "must be > 0");
   EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{list: []}")), "found 0 entries");
   EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "1.0")), "must be a map");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.bow", "{relative_half_width: 0.1}")), "gives 0");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.bow", "{relative_half_width: 0.1}")),
+              "must not be relative to 0");
   EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [1, 2], list: [1]}")),
               "must be one of");
 }
@@ -150,25 +153,24 @@ TEST(StudyReader, RefusesOptimaThatCannotBeLookedFor) {
                          optimize + "\n" + more);
   };
   EXPECT_EQ(optimized("{minimize: critical, over: [rotor.stiffness]}"), "");
-  EXPECT_SAYS(optimized("{minimize: critical}"), "vary.rotor.damping: must have two ends");
+  EXPECT_SAYS(optimized("{minimize: critical}"), "vary.rotor.damping: must have bounds");
   EXPECT_SAYS(optimized("{minimise: critical}"),
               "optimize.minimise: unknown key of optimize; did you mean 'minimize'?");
   EXPECT_SAYS(optimized("{minimize: critical, maximize: critical}"),
               "one of minimize and maximize");
   EXPECT_SAYS(optimized("{minimize: critcal}"), "did you mean 'critical'?");
-  EXPECT_SAYS(
-      optimized("{minimize: critical, over: [rotor.stifness]}"),
-      "optimize.over[0]: must be a number that varies, found 'rotor.stifness'; did you mean "
-      "'rotor.stiffness'?");
+  EXPECT_SAYS(optimized("{minimize: critical, over: [rotor.stifness]}"),
+              "optimize.over[0]: must be a varied parameter, found 'rotor.stifness'; did you mean "
+              "'rotor.stiffness'?");
   EXPECT_SAYS(optimized("{minimize: critical, over: [rotor.stiffness], method: bobyqa}"),
-              "bobyqa is for two numbers or more");
+              "bobyqa needs at least two parameters");
   EXPECT_SAYS(optimized("{minimize: critical, over: [rotor.stiffness], method: crs}",
                         "require: {critical: \"> 1\"}"),
               "crs knows no requirements");
   EXPECT_SAYS(optimized("{minimize: critical, evaluations: 0, tolerance: 0}"),
               "optimize.evaluations: must be");
   EXPECT_SAYS(optimized("{minimize: critical}", "design: {monte_carlo: 3}"),
-              "stands in place of a design");
+              "must not be given with a design");
 }
 
 TEST(StudyReader, RefusesAlarmsThatThereAreNot) {

@@ -111,7 +111,7 @@ TEST(EnsembleCommands, PlotDrawsThem) {
             (Lines{"rotor_energy.svg", "rotor_ensemble.svg", "rotor_phase.svg", "rotor_time.svg"}));
   const std::string svg = contentsOf(pictures.file("rotor_ensemble.svg"));
   EXPECT_NE(svg.find("5 to 95 %"), std::string::npos);
-  EXPECT_NE(svg.find("members over largest radius of a member (m)"), std::string::npos);
+  EXPECT_NE(svg.find("samples over largest radius of a sample (m)"), std::string::npos);
 }
 
 TEST(EnsembleCommands, TheLogHasThem) {

@@ -110,7 +110,7 @@ TEST_F(Fit, ChecksRunsWithoutAnyFit) {
       std::string(kRuns) + "  - {file: stuck.csv, measured: {theta: q}}\nfit: {inertia: }\n";
   const Ending end = fit(study, {"--check"});
   ASSERT_EQ(end.status, 0) << end.err;
-  EXPECT_THAT(end.out, HasSubstr("swing_1.csv: 801 rows, 4 s\n  nothing odd\n"));
+  EXPECT_THAT(end.out, HasSubstr("swing_1.csv: 801 rows, 4 s\n  no anomalies\n"));
   EXPECT_THAT(end.out, HasSubstr("stuck.csv: 8 rows, 0.53 s\n"));
   EXPECT_THAT(end.out, HasSubstr("gap"));
   const nlohmann::json json = fit(study, {"--check", "--json"}).json();
@@ -127,7 +127,7 @@ TEST_F(Fit, SaysWhatIsNotTold) {
   EXPECT_TRUE(json["parameters"]["mass"]["standard_deviation"].is_null());
   EXPECT_THAT(json["directions"][0], HasSubstr("change together"));
   EXPECT_THAT(fit(std::string(kRuns) + "fit: {mass: , inertia: , damping: , coulomb: }\n", {}).out,
-              HasSubstr("not told"));
+              HasSubstr("unidentifiable"));
 }
 
 /// What sensors measured, as an acquisition beside the machine records it.
@@ -261,11 +261,12 @@ TEST_F(Fit, RefusesColumnsOfOneName) {
   directory_.write("swing_2.csv", "time,arm.theta,time\n0,1,2\n");
   const Ending end = fit(std::string(kRuns) + "fit: {inertia: }\n");
   EXPECT_EQ(end.status, 2);
-  EXPECT_THAT(end.err, HasSubstr("swing_1.csv: line 1: each column must have a name of its own; "
-                                 "columns 2 and 3 are called 'q'; columns 4 and 5 are called "
-                                 "'tau'\n"));
-  EXPECT_THAT(end.err, HasSubstr("swing_2.csv: line 1: each column must have a name of its own; "
-                                 "columns 1 and 3 are called 'time'\n"));
+  EXPECT_THAT(end.err, HasSubstr("swing_1.csv: line 1: column names must be unique; columns 2 and "
+                                 "3 are named 'q'; columns 4 and 5 are named 'tau'\n"));
+  EXPECT_THAT(
+      end.err,
+      HasSubstr(
+          "swing_2.csv: line 1: column names must be unique; columns 1 and 3 are named 'time'\n"));
 }
 
 /// In one message, and nothing else on standard error.
@@ -284,9 +285,9 @@ TEST_F(ChangedSwing, ThatCannotBeUsedIsSaid) {
   EXPECT_THAT(refused("q", {"--check"}),
               HasSubstr("column 'q': theta must be within 1e+06 rad, found 1e+09 at 0 s"));
   write("time,q", [](double t, double) { return row(t, 0.3); });
-  EXPECT_THAT(refused("q"), HasSubstr("the same in every row"));
+  EXPECT_THAT(refused("q"), HasSubstr("the same values in every row"));
   write("time,q", [](double t, double theta) { return row(1000.0 * t, theta); });
-  EXPECT_THAT(refused("q"), HasSubstr("rows are 5 s apart, and windows of 1 s hold less than 5"));
+  EXPECT_THAT(refused("q"), HasSubstr("rows are 5 s apart, so windows of 1 s have fewer than 5"));
 }
 
 TEST_F(ChangedSwing, ThatHardlyCanBeMeantIsRemarked) {
@@ -299,7 +300,7 @@ TEST_F(ChangedSwing, ThatHardlyCanBeMeantIsRemarked) {
   EXPECT_THAT(remark(), HasSubstr("turns: is it in degrees?"));
   write("time,q",
         [](double t, double theta) { return row(t, theta < 0.0 ? theta + 6.28 : theta); });
-  EXPECT_THAT(remark(), HasSubstr("counts within a turn: 5 jumps of whole turns unwrapped"));
+  EXPECT_THAT(remark(), HasSubstr("is a wrapped angle: 5 jumps of whole turns unwrapped"));
   write("time,q", [](double t, double theta) { return row(1000.0 * t, theta); });
   EXPECT_THAT(remark(),
               HasSubstr("rows are 5 s apart, 5e+03 steps of the scene: is the time in s?"));
@@ -319,7 +320,7 @@ TEST_F(Fit, TellsAllMistakesOfAStudyAtOnce) {
         "runs[0].measured.thet: unknown coordinate or rate of the system; did you "
         "mean 'theta'?",
         "nowhere.csv: no such file", "runs[2].inputs.force: ", "windows.length: must be from 0.01",
-        "fit.mas: ", "fit.damping: min must be below max", "hubr: "}) {
+        "fit.mas: ", "fit.damping: min must be < max", "hubr: "}) {
     EXPECT_THAT(end.err, HasSubstr(said));
   }
   EXPECT_THAT(fit("scene: none.yaml\nsystem: arm\nruns: []\nfit: {}\n").err,

@@ -128,9 +128,10 @@ TEST_F(FollowedArm, ATableWithTwoColumnsOfOneNameIsRefused) {
   const std::string table = directory_.write("twice.csv", "time,theta,theta\n0,0.1,0.2\n");
   const Ending end = twin({"follow", scene_, table});
   EXPECT_EQ(end.status, 2);
-  EXPECT_NE(end.err.find("twice.csv: line 1: each column must have a name of its own; columns 2 "
-                         "and 3 are called 'theta'"),
-            std::string::npos)
+  EXPECT_NE(
+      end.err.find(
+          "twice.csv: line 1: column names must be unique; columns 2 and 3 are named 'theta'"),
+      std::string::npos)
       << end.err;
 }
 
@@ -196,8 +197,8 @@ patience: 100
   const Ending end = twin({"follow", scene_, log_, "--settings", settings});
   EXPECT_EQ(end.status, 2);
   for (const char* part :
-       {"lenght", "did you mean 'length'", "inertia: is 0 in the scene", "encoder/tetha",
-        "unbalance: is of rotors", "disturbance", "leg", "patience"}) {
+       {"lenght", "did you mean 'length'", "inertia: must start from a nonzero value in the scene",
+        "encoder/tetha", "unbalance: needs a rotor", "disturbance", "leg", "patience"}) {
     EXPECT_NE(end.err.find(part), std::string::npos) << part << " in\n" << end.err;
   }
 }

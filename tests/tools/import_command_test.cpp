@@ -352,8 +352,8 @@ TEST(Import, ATableOfRoss3IsOfTheSpeedAndOneOfTwoAxesIsTakenWhereTheWhirlHasTheS
   for (const auto& [version, table, remark] : std::vector<std::array<std::string, 3>>{
            {"3.0.0", of_speed, ""},
            {"2.3.0", std::string(of_speed).replace(0, 5, "frequency"), ""},
-           {"3.0.0", std::string(of_speed).replace(0, 5, "frequency"), "frequency of the whirl"},
-           {"3.1.0", of_both, "frequency of the whirl"}}) {
+           {"3.0.0", std::string(of_speed).replace(0, 5, "frequency"), "whirl frequency"},
+           {"3.1.0", of_both, "whirl frequency"}}) {
     const TemporaryDirectory folder;
     const Ending imported = twin(
         {"import", "ross",
@@ -381,8 +381,9 @@ TEST(Import, AGearOfRossIsADiscToo) {
             folder.write("gear.toml",
                          shaftWithDisc("2.3.0", bearings("kxx = 1.0e6\ncxx = 100.0\n") + gear))});
   ASSERT_EQ(imported.status, 0) << imported.err;
-  EXPECT_NE(imported.err.find("GearElement_0: what a GearElement is beside a disc"),
-            std::string::npos)
+  EXPECT_NE(
+      imported.err.find("GearElement_0: properties of a GearElement other than mass and inertias"),
+      std::string::npos)
       << imported.err;
   const std::string scene = folder.write("gear.yaml", imported.out);
   const Json json = twin({"analyze", scene, "--json"}).json()["systems"]["rotor"];
@@ -419,15 +420,15 @@ kxx = [1.0, 2.0, 3.0]
        {"ShaftElement_a.L: must be a number in m, found nothing",
         "ShaftElement_a.odl: must be a number in m, found \"thick\"",
         "ShaftElement_a.material.G_s: must be a number in Pa, found nothing",
-        "ShaftElement_a.n: there is no shaft element from node 0",
+        "ShaftElement_a.n: must have a shaft element at node 0, found none",
         "SealElement_s.kxx: must have 2 numbers as frequency has, found 3"}) {
     EXPECT_NE(wrong.err.find(complaint), std::string::npos) << complaint << "\n" << wrong.err;
   }
-  for (const auto& [name, text, words] : std::vector<std::array<std::string, 3>>{
-           {"no.toml", "a = [1,\n", "is no TOML"},
-           {"no.json", "{\"a\": ", "is no JSON"},
-           {"list.json", "[]", "must be a rotor that ROSS has saved"},
-           {"empty.toml", "", "has no ShaftElement"}}) {
+  for (const auto& [name, text, words] :
+       std::vector<std::array<std::string, 3>>{{"no.toml", "a = [1,\n", "must be TOML"},
+                                               {"no.json", "{\"a\": ", "must be JSON"},
+                                               {"list.json", "[]", "must be a rotor saved by ROSS"},
+                                               {"empty.toml", "", "must have a ShaftElement"}}) {
     const Ending refused = twin({"import", "ross", folder.write(name, text)});
     EXPECT_EQ(refused.status, 2) << name;
     EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
@@ -457,9 +458,9 @@ TEST(Import, ATableOfElementsIsAShaft) {
             folder.write("wrong.csv", "length (kg),diameter,count\n1,2,three\n,1,1\n")});
   EXPECT_EQ(wrong.status, 2);
   for (const char* complaint :
-       {"column 'length (kg)': must be in m or a unit of its kind",
-        "column 'diameter': is none of a shaft's elements; there are: length, outer_diameter,",
-        "its first line names no column 'outer_diameter'", "line 2: count: must be a number",
+       {"column 'length (kg)': must be in m or a convertible unit",
+        "column 'diameter': is not a column of shaft elements; there are: length, outer_diameter,",
+        "the first line must name a column 'outer_diameter'", "line 2: count: must be a number",
         "line 3: length: must be a number, found ''"}) {
     EXPECT_NE(wrong.err.find(complaint), std::string::npos) << complaint << "\n" << wrong.err;
   }

@@ -82,7 +82,7 @@ class MeasuredAlone(unittest.TestCase):
         done = twin('monitor', scene, log, '--output', page)
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(page, encoding='utf-8') as text:
-            self.assertIn('orbit, last turns', text.read())
+            self.assertIn('orbit, last revolutions', text.read())
 
     def test_a_keyphasor_whose_clock_is_coarser_than_stated(self):
         right = self.scene('real.yaml', RUN_UP, ', resolution: 39 us')

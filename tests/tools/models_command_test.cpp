@@ -50,6 +50,21 @@ TEST(Models, OnlyOnesOnAShaftHaveASpeed) {
   }
 }
 
+TEST(Models, HaveAMeaningForEveryCoordinate) {
+  const Json models = twin({"models", "--json"}).json()["models"];
+  for (const auto& [name, model] : models.items()) {
+    std::vector<Json> forms{model};
+    const Json variants = model.value("variants", Json::object());
+    forms.insert(forms.end(), variants.begin(), variants.end());
+    for (const Json& form : forms) {
+      EXPECT_NE(form["coordinates"].empty(), form.value("coordinates_meaning", "").empty()) << name;
+      for (const auto& [coordinate, info] : form["coordinates"].items()) {
+        EXPECT_NE(info["meaning"], "") << name << ", " << coordinate;
+      }
+    }
+  }
+}
+
 TEST(Models, AreToldOfSeveralNames) {
   const Ending two = twin({"models", "spinning_pendulum", "pendulum", "--json"});
   ASSERT_EQ(two.status, 0) << two.err;

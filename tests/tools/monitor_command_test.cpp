@@ -174,7 +174,7 @@ TEST_F(RunUpLog, OfAnotherSceneIsRefused) {
   const std::string other = directory_.write("other.yaml", renamed);
   const Ending refused = twin({"monitor", other, log_, "--output", page});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("expected states"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("must have states"), std::string::npos) << refused.err;
   EXPECT_EQ(contentsOf(page), "") << "nothing half-done";
 }
 

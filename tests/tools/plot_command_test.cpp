@@ -116,7 +116,7 @@ TEST(Plot, ShowsALagWhereTheWhirlGoesWithTheShaft) {
   EXPECT_FALSE(has(wordsOf("hysteresis", "sagging", "time"), lag));
   const std::string hanging = wordsOf("levitation", "rotor", "time", {"--duration", "6"});
   EXPECT_TRUE(has(hanging, lag)) << hanging;
-  EXPECT_TRUE(has(hanging, "whirl radius about its middle (m)")) << hanging;
+  EXPECT_TRUE(has(hanging, "whirl radius about its mean (m)")) << hanging;
 }
 
 // The largest whirl of this run is its last.

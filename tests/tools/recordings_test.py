@@ -176,7 +176,7 @@ class Recordings(unittest.TestCase):
 
     def test_two_runs_in_one_bag_are_refused(self):
         run = bag(encoder(SWING) + encoder(swing(-0.7, 0.0, 3.0)))
-        self.refused('expected one run, found two', 'follow', self.path('scene.yaml'), self.file('run.bag', run),
+        self.refused('must be one run, found two', 'follow', self.path('scene.yaml'), self.file('run.bag', run),
                      '--lcm-prefix', 'MACHINE_')
 
     def test_an_input_without_a_sample_is_refused(self):
@@ -190,7 +190,7 @@ class Recordings(unittest.TestCase):
         self.assertAlmostEqual(right, LENGTH, delta=1e-3 * LENGTH)
         for missing in ('motors/tau', 'motor/tua', 'enc/tau'):
             other = self.file('other.yaml', settings.replace('motor/tau', missing))
-            self.refused(missing + ', which the settings name for an input, has no valid sample', 'follow',
+            self.refused(missing + ', an input of the settings, must have a valid sample', 'follow',
                          self.path('scene.yaml'), recording, '--lcm-prefix', 'MACHINE_', '--settings', other)
         table = self.file('run.csv', 'time,theta\n' + ''.join('%g,%.9g\n' % row for row in rows))
         self.refused("no column 'tua'", 'follow', self.path('scene.yaml'), table, '--settings',
@@ -284,12 +284,12 @@ class Recordings(unittest.TestCase):
         # As it is: the remark stays, and nothing is changed.
         told = json.loads(self.fitted('run.csv', cells, ', wrap: false').stdout)
         self.assertNotIn('counts within', ' '.join(told['runs']['run.csv']['remarks']))
-        self.assertIn('leaps by', ' '.join(told['runs']['run.csv']['remarks']))
+        self.assertIn('jumps by', ' '.join(told['runs']['run.csv']['remarks']))
 
     @unittest.skipUnless(FITS == 'ON', 'without Ceres there is no fit')
     def test_whatever_becomes_of_a_recording_the_result_is_right_or_refused(self):
         dice = random.Random(3)
-        causes = ('gap', 'found two', 'three rows a turn', 'counts within a turn')
+        causes = ('gap', 'found two', 'three rows per turn', 'counts within a turn')
         right = 0
         kinds = ('table', 'bag')
         for trial in range(12):

@@ -148,10 +148,10 @@ TEST(Reduction, IsAskedForNoCriticalSpeedBeyondWhatItHoldsTo) {
   }
   const auto beyond = rotor["critical_speeds_beyond_reduction"].get<int>();
   EXPECT_GT(beyond, 0);
-  EXPECT_NE(
-      twin({"analyze", scene})
-          .out.find(std::to_string(beyond) + " more left out: the reduced rotor holds up to 600"),
-      std::string::npos);
+  EXPECT_NE(twin({"analyze", scene})
+                .out.find(std::to_string(beyond) +
+                          " more left out: the reduced-order rotor is valid only up to 600"),
+            std::string::npos);
 
   const Ending diagram = twin({"campbell", scene, "--to", "20000", "--points", "20", "--json"});
   ASSERT_EQ(diagram.status, 0) << diagram.err;
@@ -336,7 +336,7 @@ TEST(Balance, NeedsARunForEveryPlane) {
   const Ending end = twin({"balance", runs});
   EXPECT_EQ(end.status, 2);
   EXPECT_EQ(linesOf(end.err),
-            (Lines{"twin: " + runs + ": weights: must have one above 0",
+            (Lines{"twin: " + runs + ": weights: must have one > 0",
                    "twin: " + runs +
                        ": trials: must have a run with a mass in every plane, found none in "
                        "'fan'"}));
@@ -362,7 +362,7 @@ INSTANTIATE_TEST_SUITE_P(
                        "--system: expected a linear rotor on a shaft of prescribed speed, found "
                        "pendulum (spinning_pendulum)"},
         RefusedCommand{{"campbell", kDemo, "--from", "50", "--to", "20"},
-                       "--from, --to: expected --from below --to, found 50 and 20 rad/s"},
+                       "--from, --to: --from must be < --to, found 50 and 20 rad/s"},
         RefusedCommand{{"campbell", kDemo, "--from", "-1"},
                        "--from: expected a shaft speed from 0 to 1e+06 rad/s, found -1"},
         RefusedCommand{{"response", kDemo, "--points", "1"},

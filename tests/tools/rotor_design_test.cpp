@@ -97,10 +97,9 @@ TEST(Map, LeavesSealsOut) {
 TEST(Map, IsOfFlexibleRotors) {
   const Ending end = twin({"map", kDemo});
   EXPECT_EQ(end.status, 2);
-  EXPECT_EQ(
-      end.err,
-      "twin: rotor (jeffcott_rotor): expected a flexible_rotor: the others have no bearings to "
-      "vary\n");
+  EXPECT_EQ(end.err,
+            "twin: rotor (jeffcott_rotor): must be a flexible_rotor, the only model with bearings "
+            "to vary\n");
   EXPECT_EQ(twin({"map", kFriswell, "--bearing", "0", "3"}).err,
             "twin: --bearing: expected nodes with bearings, 0, 6; found 3\n");
 }

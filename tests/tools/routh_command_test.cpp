@@ -121,7 +121,7 @@ TEST(Routh, EveryBadCoefficientIsNamed) {
 TEST(Routh, NoPolynomialIsLeftOfZeros) {
   const Ending end = twin({"routh", "0", "0"});
   EXPECT_EQ(end.status, 2);
-  EXPECT_EQ(end.err, "twin: coefficients: expected at least one that is not zero, found none\n");
+  EXPECT_EQ(end.err, "twin: coefficients: at least one must not be zero, found none\n");
 }
 
 TEST(Routh, TakesFractions) {
@@ -162,7 +162,7 @@ TEST(Routh, TellsForWhichParameterItIsStable) {
 
 TEST(Routh, RefusesAParameterThatIsNone) {
   EXPECT_EQ(twin({"routh", "1", "2", "--parameter", "K"}).err,
-            "twin: --parameter: no coefficient has K in it\n");
+            "twin: --parameter: no coefficient contains K\n");
   EXPECT_EQ(twin({"routh", "1", "2K", "--parameter", "2"}).status, 2);
   const Ending unknown = twin({"routh", "1", "2L", "--parameter", "K"});
   EXPECT_EQ(unknown.status, 2);

@@ -32,11 +32,13 @@ TEST(Scenes, EveryModelOfTheProgramIsInAShippedSceneThatSaysWhatToWatch) {
   }
 }
 
-TEST(Scenes, TheListNamesSystemsAndModels) {
+TEST(Scenes, TheListNamesSystemsModelsAndWhatToWatch) {
   const Ending end = twin({"scenes"});
   ASSERT_EQ(end.status, 0);
   EXPECT_NE(end.out.find("\nrod_slider\n"), std::string::npos);
   EXPECT_NE(end.out.find("systems: rod (rod_slider)"), std::string::npos);
+  const std::string watch = twin({"scenes", "--json"}).json()["scenes"]["rod_slider"]["watch"];
+  EXPECT_NE(end.out.find("\n  " + watch + "\n"), std::string::npos);
 }
 
 TEST(Scenes, OfAFolderIncludeThoseThatCannotBeRead) {

@@ -47,7 +47,7 @@ TEST(Resume, RefusesWhatItCannotGoOnFrom) {
     EXPECT_EQ(end.out, "");
     return end.err;
   };
-  EXPECT_EQ(whyNot({"--duration", "1"}), "twin: --duration: must end behind step 1000, where " +
+  EXPECT_EQ(whyNot({"--duration", "1"}), "twin: --duration: must be more than the 1000 steps of " +
                                              checkpoint + " is, found 1000 steps\n");
   EXPECT_EQ(whyNot({"--step", "0.002"})
                 .find("twin: " + checkpoint +
@@ -56,7 +56,7 @@ TEST(Resume, RefusesWhatItCannotGoOnFrom) {
             0U);
   const std::string bytes = contentsOf(checkpoint);
   std::ofstream(checkpoint, std::ios::binary) << bytes.substr(0, bytes.size() - 20);
-  EXPECT_NE(whyNot({}).find("run.checkpoint: is torn: must have "), std::string::npos);
+  EXPECT_NE(whyNot({}).find("run.checkpoint: truncated: must have "), std::string::npos);
 }
 
 }  // namespace simulate_resume_test

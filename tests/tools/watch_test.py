@@ -96,7 +96,7 @@ class Watch(unittest.TestCase):
         frame = whole[-1].decode().replace('\r\n', '\n')
         self.assertRegex(frame, r'rotor: speed [0-9.]+ rad/s')
         self.assertIn('\n  DANGER since 0.500 s: in the band of 84 rad/s\n', frame)
-        self.assertIn('1 alerts stand, 1 of them DANGER', frame)
+        self.assertIn('1 active alerts, 1 of them DANGER', frame)
         self.assertNotIn('it grows', frame)
 
     def test_another_twin_is_not_heard(self):

@@ -230,7 +230,7 @@ TEST(LoggedBag, WhateverStandsInAFileIsReadToItsEnd) {
     try {
       EXPECT_LE(read(bytes).log.taken, 22u);
     } catch (const Refusal& why) {  // its first line
-      EXPECT_NE(std::string(why.what()).find("expected a rosbag"), std::string::npos);
+      EXPECT_NE(std::string(why.what()).find("must be a rosbag"), std::string::npos);
     }
   }
 }

@@ -90,14 +90,15 @@ TEST(EnsembleReader, ReadsWhatIsSpread) {
 }
 
 TEST(EnsembleReader, SaysWhatIsWrong) {
-  EXPECT_EQ(
-      errorOf(rotorScene("    count: 10\n")),
-      "test.yaml: systems.rotor.spread: missing; must say what differs from member to member");
+  EXPECT_EQ(errorOf(rotorScene("    count: 10\n")),
+            "test.yaml: systems.rotor.spread: missing; must name the parameters or initial values "
+            "that differ between the samples");
   EXPECT_EQ(errorOf(rotorScene("    seed: 3\n")),
-            "test.yaml: systems.rotor.seed: needs a spread, that members are drawn of");
-  EXPECT_EQ(errorOf(rotorScene("    count: 10\n    spread: {stifness: {half_width: 0.1}}\n")),
-            "test.yaml: systems.rotor.spread.stifness: unknown number of jeffcott_rotor; did you "
-            "mean 'stiffness'?");
+            "test.yaml: systems.rotor.seed: needs a spread, from which the samples are drawn");
+  EXPECT_EQ(
+      errorOf(rotorScene("    count: 10\n    spread: {stifness: {half_width: 0.1}}\n")),
+      "test.yaml: systems.rotor.spread.stifness: unknown parameter of jeffcott_rotor; did you "
+      "mean 'stiffness'?");
   EXPECT_EQ(errorOf(rotorScene("    count: 10\n    spread: {initial.z: {half_width: 0.1}}\n")),
             "test.yaml: systems.rotor.spread.initial.z: unknown coordinate of jeffcott_rotor; did "
             "you mean 'initial.x'?");
@@ -105,12 +106,12 @@ TEST(EnsembleReader, SaysWhatIsWrong) {
             "test.yaml: systems.rotor.spread.mass: must have one of standard_deviation, "
             "half_width, relative_standard_deviation, relative_half_width, found none");
   EXPECT_EQ(errorOf(rotorScene("    count: 10\n    spread: {bow: {relative_half_width: 0.1}}\n")),
-            "test.yaml: systems.rotor.spread.bow.relative_half_width: is relative to 0: give the "
-            "width in m");
+            "test.yaml: systems.rotor.spread.bow.relative_half_width: is relative, but the value "
+            "is 0: give the width in m");
   EXPECT_EQ(errorOf(rotorScene(
                 "    count: 9\n    spread: {stiffness: {relative_half_width: 1.0e305}}\n")),
-            "test.yaml: systems.rotor.spread.stiffness.relative_half_width: is beyond the range of "
-            "doubles");
+            "test.yaml: systems.rotor.spread.stiffness.relative_half_width: exceeds the range of a "
+            "double");
   EXPECT_EQ(errorsOf(rotorScene("    count: 0\n    seed: -1\n    spread: 3\n")).size(), 3u);
   EXPECT_EQ(errorOf(rotorScene("    count: 4\n    spread: {mass: {half_width: -1}}\n")),
             "test.yaml: systems.rotor.spread.mass.half_width: must be > 0 kg, found -1");
@@ -220,28 +221,26 @@ TEST(EnsembleScene, RefusesCorrelationsThatCannotBe) {
         correlations + "\n"));
   };
   const std::string key = "test.yaml: systems.rotor.spread.correlations";
-  EXPECT_EQ(refusal("0.5"), key +
-                                ": must be a list of [one number, another, their correlation], "
-                                "found 0.5");
+  EXPECT_EQ(refusal("0.5"),
+            key + ": must be a list of [parameter, other parameter, correlation], found 0.5");
   EXPECT_EQ(refusal("[[mass, stiffness]]"),
-            key + "[0]: must be [one number, another, their correlation from -1 to 1]");
+            key + "[0]: must be [parameter, other parameter, correlation from -1 to 1]");
   EXPECT_EQ(refusal("[[mass, stiffness, 1.01]]"),
-            key + "[0]: must be [one number, another, their correlation from -1 to 1]");
+            key + "[0]: must be [parameter, other parameter, correlation from -1 to 1]");
   EXPECT_EQ(refusal("[[mass, stifness, 0.5]]"),
             key +
-                "[0]: must be numbers that have a spread, found 'stifness'; did you mean "
+                "[0]: must be parameters with a spread, found 'stifness'; did you mean "
                 "'stiffness'?");
   EXPECT_EQ(refusal("[[mass, eccentricity, 0.5]]"),
             key +
-                "[0]: 'eccentricity' is spread evenly: must be numbers that are spread normally, "
-                "with a standard_deviation");
+                "[0]: correlations need normal distributions (standard_deviation); 'eccentricity' "
+                "is uniform");
   EXPECT_EQ(refusal("[[mass, mass, 0.5]]"), key + "[0]: the correlation of 'mass' and 'mass' is 1");
   EXPECT_EQ(refusal("[[mass, stiffness, 0.5], [stiffness, mass, 0.5]]"),
-            key + "[1]: the correlation of 'stiffness' and 'mass' stands twice");
-  EXPECT_EQ(refusal("[[mass, stiffness, 0.9], [mass, damping, 0.9], [damping, stiffness, -0.9]]"),
-            key +
-                ": no numbers go together like this: the matrix of correlations must be positive "
-                "semidefinite, found an eigenvalue of -0.8");
+            key + "[1]: the correlation of 'stiffness' and 'mass' is given twice");
+  EXPECT_EQ(
+      refusal("[[mass, stiffness, 0.9], [mass, damping, 0.9], [damping, stiffness, -0.9]]"),
+      key + ": the correlation matrix must be positive semidefinite, found an eigenvalue of -0.8");
 }
 
 TEST(EnsembleDraw, StaysInRange) {
@@ -486,7 +485,7 @@ TEST(Ensemble, StepsAndTellsWithoutAllocating) {
   }
 }
 
-// A radius whose square is beyond the range of doubles counts as run away.
+// A radius whose square exceeds the range of a double counts as run away.
 TEST(Ensemble, ARotorThatRunsAwayBesideOthersStopsAlone) {
   Twin twin(sceneOf(rotorScene(R"(
     count: 30
@@ -515,7 +514,7 @@ TEST(Ensemble, SpeedsItIsNotPreparedForAreRefused) {
   Running dependent(sceneOf(damped));
   EXPECT_EQ(dependent.parameters.objectionToSpeed(0, 150.0), "");
   EXPECT_EQ(dependent.parameters.objectionToSpeed(0, 151.0),
-            "speed: must be from 0 to 150 rad/s, which the ensemble of rotor is prepared for, "
+            "speed: must be from 0 to 150 rad/s, the range prepared for the ensemble of rotor, "
             "found 151");
 }
 
@@ -533,7 +532,7 @@ TEST(Ensemble, AMemberOfAnotherKindIsNamed) {
     twin.buildEnsembles();
     FAIL() << "rotors in journal bearings among those on rigid ones";
   } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("other coordinates than the system as given"),
+    EXPECT_NE(std::string(error.what()).find("other coordinates than the nominal system"),
               std::string::npos)
         << error.what();
   }

@@ -33,7 +33,7 @@ TEST(LiveChange, WhatASceneWouldRefuseIsRefusedInItsWords) {
   EXPECT_NE(refusal("rotor", "damping", std::nan("")).find("found 'nan'"), std::string::npos);
   EXPECT_NE(refusal("rotor", "damping", INFINITY).find("found 'inf'"), std::string::npos);
   EXPECT_NE(refusal("rotor", "speed", 1.0).find("set_speed"), std::string::npos);
-  EXPECT_NE(refusal("rotor", "damping[0]", 1.0).find("is one number"), std::string::npos);
+  EXPECT_NE(refusal("rotor", "damping[0]", 1.0).find("is a single number"), std::string::npos);
   EXPECT_NE(refusal("rotor", "", 1.0).find("unknown parameter"), std::string::npos);
   EXPECT_EQ(refusal("rotor", "damping", 1.0, -1.0), "ramp: must be from 0 to 1e+06 s, found -1");
   EXPECT_FALSE(twin.parameters.set({"rotor", {"mass", "mass"}, {1.0, 2.0}, 0.0}).done);

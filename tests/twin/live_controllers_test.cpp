@@ -169,8 +169,9 @@ TEST(LiveControllersOf, AnotherProcessHaveTheirParametersThere) {
       "{step: 0.001, systems: {s: {model: linear_system, parameters: {names: [x], mass: "
       "[[1]], stiffness: [[1]]}}}, controllers: {far: {type: external, rate: 100, measures: "
       "[s.x], acts_on: [s.force_x], delay: 0.01, timeout: 0.5}}}"));
-  EXPECT_EQ(twin.set("far", "timeout", 1.0).message,
-            "set_parameter: controllers.far.parameters: it is the other process that has them");
+  EXPECT_EQ(
+      twin.set("far", "timeout", 1.0).message,
+      "set_parameter: controllers.far.parameters: must be changed in the controller's own process");
 }
 
 }  // namespace live_controllers_test

@@ -215,7 +215,7 @@ TEST(MagneticBearings, StopWhatTouchesTheirPoles) {
   const BuiltSystem& system = *twin.systems()[0];
   const std::string text = stopText(system, twin.layout().system(record.data(), 0),
                                     describe(twin.status(0)), steps, 0.1);
-  EXPECT_NE(text.find("its shaft touches a bearing: no air gap or oil film is left; last good "
+  EXPECT_NE(text.find("its shaft touches a bearing: the air gap or oil film is 0; last valid "
                       "state: x = 0.0002"),
             std::string::npos)
       << text;
@@ -317,9 +317,10 @@ TEST(MagneticBearings, LeaveARotorRoomWhereItStarts) {
     ADD_FAILURE() << "was accepted";
   } catch (const SceneError& error) {
     ASSERT_EQ(error.errors().size(), 1u) << error.what();
-    EXPECT_EQ(error.errors()[0],
-              "test.yaml: systems.r.initial: cannot move from here: the rotor touches magnet "
-              "(gap_magnet -5e-05 m)");
+    EXPECT_EQ(
+        error.errors()[0],
+        "test.yaml: systems.r.initial: the motion cannot start here: the rotor touches magnet "
+        "(gap_magnet -5e-05 m)");
   }
 }
 
@@ -327,26 +328,26 @@ TEST(MagneticBearings, AreRefusedWhereTheyDoNotFitTogether) {
   const std::string jeffcott = "speed: 5.0, mass: 1.0, stiffness: 100.0, ";
   for (const Refused& r : std::vector<Refused>{
            {"jeffcott_rotor", jeffcott + "magnets: [{ki: 10.0}]",
-            "magnets[0].ks: must be > 0 N/m, unless bias and gap give it"},
+            "magnets[0].ks: must be > 0 N/m, unless bias and gap are given"},
            {"jeffcott_rotor", jeffcott + "magnets: [{ki: 10.0, bias: 1.0}]",
             "magnets[0].gap: must be > 0 m with bias"},
            {"jeffcott_rotor", jeffcott + "magnets: [{ki: 10.0, gap: 1.0e-3}]",
             "magnets[0].bias: must be > 0 A with gap"},
            {"jeffcott_rotor", jeffcott + "magnets: [{ki: 10.0, gap: 1.0e-3, bias: 2.0, ks: 3.0}]",
-            "magnets[0].ks: must not be given with gap: it is ki bias / gap = 20000 N/m, found 3"},
+            "magnets[0].ks: must not be given with gap, which gives ki bias / gap = 20000 N/m, "
+            "found 3"},
            {"jeffcott_rotor",
             jeffcott + "magnets: [{ki: 10.0, gap: 1.0e-3, bias: 2.0, saturation: 5.0}]",
-            "magnets[0].saturation: must be > ki bias / 4 = 5 N, what a pole pulls with at its "
-            "bias, found 5"},
+            "magnets[0].saturation: must be > ki bias / 4 = 5 N, the force of a pole at its bias, "
+            "found 5"},
            {"jeffcott_rotor", jeffcott + "magnets: [{ki: 10.0, ks: 3.0}, {ki: 10.0, ks: 3.0}]",
             "magnets: must be one map, at the disc, found 2"},
            {"jeffcott_rotor", jeffcott + "loss_factor: 0.1, magnets: [{ki: 10.0, ks: 3.0}]",
-            "magnets: a rotor on a magnet has neither a motor, a loss_factor, a rub nor journal "
-            "bearings"},
+            "magnets: must not be given with a motor, a loss_factor, a rub or journal bearings"},
            {"rigid_disc_rotor",
             "speed: 5.0, mass: 1.0, transverse_inertia: 0.1, polar_inertia: 0.1, frame: rotating, "
             "stiffness_displacement: 10.0, stiffness_rotation: 1.0, magnets: [{ki: 1.0, ks: 3.0}]",
-            "magnets: need frame: fixed, where they stand"}}) {
+            "magnets: need frame: fixed"}}) {
     try {
       sceneOf("{step: 0.001, systems: {r: {model: " + r.model + ", parameters: {" + r.parameters +
               "}}}}");

@@ -63,11 +63,11 @@ TEST(MotorScene, SaysAllThatIsWrongWithAMotor) {
           .find("motor.table[1].speed: must be greater than the one before, 9 rad/s, found 1"),
       std::string::npos);
   EXPECT_NE(complaints(scene("{torque: 1}, profile: [{speed: 3, max_acceleration: 1}]"))
-                .find("drives.engine.profile: a motor's speed is an outcome"),
+                .find("drives.engine.profile: a motor's speed is not prescribed"),
             std::string::npos);
   EXPECT_NE(complaints(scene("{torque: 1}", "}, initial: {spin_rate: 3"))
-                .find("systems.rotor.initial.spin_rate: the shaft starts with the angle and the "
-                      "speed of its drive"),
+                .find("systems.rotor.initial.spin_rate: must not be given: the shaft starts with "
+                      "the angle and speed of its drive"),
             std::string::npos);
 }
 
@@ -160,7 +160,7 @@ TEST(MotorScene, ItsShaftIsTheOneThatIsPublished) {
   observer.observe(record.data());
   EXPECT_NEAR(0.5 * (acceleration + observer.drive(0).acceleration),
               (observer.drive(0).speed - speed) / 0.0005, 1e-2 * std::fabs(acceleration) + 1e-3);
-  EXPECT_FALSE(twin.setSpeed(0, 30.0, 10.0, 10.0)) << "a motor's speed is an outcome";
+  EXPECT_FALSE(twin.setSpeed(0, 30.0, 10.0, 10.0)) << "a motor's speed is not prescribed";
   twin.reset();
   twin.write(record.data());
   observer.observe(record.data());

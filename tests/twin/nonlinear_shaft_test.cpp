@@ -347,7 +347,7 @@ TEST(LocalElements, AreRefusedWhereTheyDoNotFitTogether) {
            {"rubs: [{node: 1, clearance: 1.0e-3, stiffness: 1.0, friction: 0.1}]",
             "rubs[0].radius: must be > 0 m with friction"},
            {"cubic_springs: [{node: 1, stiffness: 1.0}, {node: 1, stiffness: 2.0}]",
-            "cubic_springs[1].node: stands twice, found 1"},
+            "cubic_springs[1].node: duplicate: node 1 already has one"},
            {"squeeze_films: [{node: 1, length: 0.01, diameter: 0.02, clearance: 1.0e-4}]",
             "squeeze_films[0].viscosity: missing"}}) {
     try {

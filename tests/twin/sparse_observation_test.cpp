@@ -21,8 +21,6 @@ namespace sparse_observation_test {
 struct Comparison {
   std::int64_t observed = 0;  ///< steps, of those that nobody was told of
   std::int64_t looked = 0;
-  std::int64_t quiet = 0;
-  std::int64_t put_off = 0;
   int differing = 0;  ///< phases told
 };
 
@@ -53,8 +51,6 @@ Comparison compare(const Scene& scene, std::int64_t steps, std::int64_t told) {
   std::vector<double> record(twin.layout().size);
   std::vector<Same> same(every.stations(0).size());
   Comparison c;
-  std::int64_t quiet_until = sparse.quietUntil(twin);
-  std::int64_t next_look = 1;
   for (std::int64_t i = 1; i <= steps; ++i) {
     twin.step();
     twin.write(record.data());
@@ -67,25 +63,14 @@ Comparison compare(const Scene& scene, std::int64_t steps, std::int64_t told) {
       c.differing += same[0](every.whirl(0), records.whirl(0)) ? 0 : 1;
     }
     const bool due = i % told == 0 || i - sparse.step() >= sparse.mostPassed();
-    if (!due && i != quiet_until) {
-      if (i < quiet_until) {
-        ++c.quiet;
-        continue;
-      }
-      if (i < next_look) {
-        ++c.put_off;
-        continue;
-      }
-      next_look = sparse.look(twin);
-      if (next_look > i) {
+    if (!due) {
+      if (sparse.look(twin)) {
         ++c.looked;
         continue;
       }
       ++c.observed;
     }
     sparse.observe(record.data());
-    quiet_until = sparse.quietUntil(twin);
-    next_look = i + 1;
     for (std::size_t k = 0; k < every.stations(0).size(); ++k) {
       c.differing += same[k](every.whirl(0, k), sparse.whirl(0, k)) ? 0 : 1;
     }
@@ -140,118 +125,15 @@ TEST(SparseObservation, PhasesOfRandomRotorsAreUnwrappedAlike) {
     const Comparison c = compare(sceneOf(text), 10'000, trial % 2 == 0 ? 997 : 10'000);
     EXPECT_EQ(c.differing, 0) << text;
     all.looked += c.looked;
-    all.quiet += c.quiet;
-    all.put_off += c.put_off;
     all.observed += c.observed;
   }
-  EXPECT_GT(all.looked, 200'000);
-  EXPECT_GT(all.put_off, 50'000);
-  EXPECT_GT(all.quiet, 300'000);
+  EXPECT_GT(all.looked, 500'000);
   EXPECT_GT(all.observed, 0);
 }
 
-// A free motion beside the whirl that the unbalance drives: a little less, and the lag stays within
-// half a turn; a little more, and it may go round. The bound is sharp for one in a plane; round the
-// centre, with energy in both directions, sqrt(2) less is allowed.
-TEST(SparseObservation, WhirlIsTakenForSteadyOnlyWhereWhatIsFreeBesideItIsLess) {
-  for (const double free : {0.3, 0.6, 0.7, 0.85, 0.95, 1.01, 1.05, 1.2, 1.4, 2.0}) {
-    for (const double speed : {40.0, 80.0, 160.0, -80.0}) {
-      for (const bool round : {false, true}) {
-        // Of an eccentricity of 1e-4 m and a natural frequency of 100 rad/s.
-        const double driven = 1e-4 * speed * speed / (1e4 - speed * speed);
-        const Comparison c = compare(
-            sceneOf(fmt::format(
-                "{{step: 0.001, systems: {{rotor: {{model: jeffcott_rotor, parameters: {{mass: 2, "
-                "stiffness: 2.0e4, damping: 0, eccentricity: 1e-4, speed: {}}}, initial: {{x: {}, "
-                "y_rate: {}}}}}}}}}",
-                speed, driven * (1.0 + free), driven * (speed + (round ? 100.0 * free : 0.0)))),
-            20'000, 20'000);
-        const bool steady = free < (round ? 0.9 / std::sqrt(2.0) : 0.9);
-        EXPECT_EQ(c.differing, 0) << free << " at " << speed;
-        EXPECT_EQ(c.quiet > 19'000, steady) << free << " at " << speed;
-        EXPECT_EQ(c.quiet == 0, !steady) << free << " at " << speed;
-      }
-    }
-  }
-}
-
-// A shaft that sags by 0.981 mm: a free motion about the sag that is as wide goes round the centre.
-TEST(SparseObservation, WhirlIsTakenToStandBesideTheCentreOnlyWhereItDoesNotGoRoundIt) {
-  constexpr double kSag = 9.81e-4;
-  for (const double free : {0.3, 0.6, 0.72, 0.95, 1.05, 1.3}) {
-    for (const double speed : {0.0, 50.0, -300.0}) {
-      const Comparison c = compare(
-          sceneOf(fmt::format(
-              "{{gravity: 9.81, step: 0.001, systems: {{rotor: {{model: jeffcott_rotor, "
-              "parameters: {{gravity_on_shaft: true, mass: 2, stiffness: 2.0e4, damping: 0, "
-              "eccentricity: 1e-8, speed: {}}}, initial: {{y: {}, x_rate: {}}}}}}}}}",
-              speed, -kSag * (1.0 + free), 0.3 * free * kSag * 100.0)),
-          20'000, 20'000);
-      const bool steady = free * std::hypot(1.0, 0.3) < 0.69;
-      EXPECT_EQ(c.differing, 0) << free << " at " << speed;
-      EXPECT_EQ(c.quiet > 19'000, steady) << free << " at " << speed;
-      EXPECT_EQ(c.quiet == 0, !steady) << free << " at " << speed;
-    }
-  }
-}
-
-// The free motion that internal damping feeds grows until it is ahead.
-TEST(SparseObservation, WhirlThatGrowsIsNotTakenForSteadyForLong) {
-  const Comparison c = compare(
-      sceneOf(
-          "{step: 0.001, systems: {rotor: {model: jeffcott_rotor, parameters: {mass: 2, "
-          "stiffness: 2.0e4, damping: 1, internal_damping: 20, eccentricity: 1e-4, speed: 160}, "
-          "initial: {x: -1.641e-4, y: 0, y_rate: -2.62e-2}}}}"),
-      10'000, 10'000);
-  EXPECT_EQ(c.differing, 0);
-  EXPECT_GT(c.quiet, 100);
-  EXPECT_LT(c.quiet, 5'000);
-}
-
-// Far from all resonances, through one, and of a shaft that sags: looks are several steps apart.
-TEST(SparseObservation, WhirlInARunUpIsLookedAtNowAndThen) {
-  for (const char* more :
-       {"damping: 10", "damping: 10, gravity_on_shaft: true", "damping: 400, stiffness_y: 3.0e4"}) {
-    for (const double start : {0.0, 60.0, 150.0}) {
-      const Comparison c = compare(
-          sceneOf(fmt::format(
-              "{{gravity: 9.81, step: 0.001, drives: {{shaft: {{speed: {}, profile: [{{speed: 200, "
-              "max_acceleration: 2}}]}}}}, systems: {{rotor: {{model: jeffcott_rotor, drive: "
-              "shaft, "
-              "parameters: {{mass: 2, stiffness: 2.0e4, {}, eccentricity: 1e-4}}}}}}}}",
-              start, more)),
-          20'000, 20'000);
-      EXPECT_EQ(c.differing, 0) << more << " from " << start;
-      EXPECT_GT(c.put_off, c.looked) << more << " from " << start;
-    }
-  }
-}
-
-// Free whirls in circles and ellipses, forwards and backwards: from look to look a circle goes
-// round by 1.1 rad.
-TEST(SparseObservation, WhirlThatGoesRoundIsLookedAtSixTimesATurn) {
-  for (const double per_step : {0.071, 0.1, 0.16, 0.35, 0.5}) {
-    for (const double ratio : {1.0, -1.0, 0.7, 1.4, -0.3, 0.05}) {
-      const double omega = per_step / 0.001;
-      const std::string text = fmt::format(
-          "{{step: 0.001, drives: {{shaft: {{speed: -40, profile: [{{speed: 200, "
-          "max_acceleration: 2}}]}}}}, systems: {{rotor: {{model: jeffcott_rotor, drive: shaft, "
-          "parameters: {{mass: 1, stiffness: {}, damping: 0, eccentricity: 0}}, initial: {{x: "
-          "3.0e-4, y: 4.0e-4, x_rate: {}, y_rate: {}}}}}}}}}",
-          omega * omega, -ratio * omega * 4.0e-4, ratio * omega * 3.0e-4);
-      const Comparison c = compare(sceneOf(text), 20'000, 20'000);
-      EXPECT_EQ(c.differing, 0) << text;
-      if (std::abs(ratio) == 1.0) {
-        EXPECT_LT(c.looked + c.observed, 20'000 / std::floor(1.1 / per_step) + 350) << text;
-      }
-    }
-  }
-}
-
-// Within a step the shaft turns by nearly a quarter of a turn, and gets there within a few steps: a
-// bound of how far it turns that is too wide is more than half a turn.
+// Within a step the shaft turns by nearly a quarter of a turn, and gets there within a few steps.
 TEST(SparseObservation, ShaftsThatTurnFarInAStepAreFollowed) {
-  std::int64_t put_off = 0;
+  std::int64_t looked = 0;
   for (const double stiffness : {5.0, 100.0, 400.0}) {
     for (const double acceleration : {220.0, 250.0, 280.0, 800.0}) {
       for (const double jerk : {350.0, 416.67, 500.0, 9000.0}) {
@@ -265,12 +147,12 @@ TEST(SparseObservation, ShaftsThatTurnFarInAStepAreFollowed) {
               start, acceleration, jerk, stiffness);
           const Comparison c = compare(sceneOf(text), 400, 20'000);
           EXPECT_EQ(c.differing, 0) << text;
-          put_off += c.put_off;
+          looked += c.looked;
         }
       }
     }
   }
-  EXPECT_GT(put_off, 1'000);
+  EXPECT_GT(looked, 1'000);
 }
 
 TEST(SparseObservation, EveryStationOfAShaftIsFollowed) {
@@ -290,15 +172,6 @@ TEST(SparseObservation, EveryStationOfAShaftIsFollowed) {
         sceneOf(fmt::format("{{step: 0.001, drives: {{d: {{{}}}}}, ", drive) + shaft), 8'000, 1999);
     EXPECT_EQ(c.differing, 0) << drive;
   }
-}
-
-TEST(SparseObservation, SteadyWhirlIsHardlyLookedAt) {
-  const Scene scene = sceneOf(
-      "{step: 0.001, systems: {rotor: {model: jeffcott_rotor, parameters: {mass: 2, "
-      "stiffness: 7200, damping: 120, eccentricity: 1e-4, speed: 60}}}}");
-  const Comparison c = compare(scene, 20'000, 20'000);
-  EXPECT_EQ(c.differing, 0);
-  EXPECT_GT(c.quiet, 19'000);
 }
 
 // Energies are a part of what somebody is told: the largest in play is looked for all the same.
@@ -328,7 +201,7 @@ TEST(SparseObservation, AnErrorIsSeenInTheStepThatFindsIt) {
     twin.step();
     twin.write(record.data());
     every.observe(record.data());
-    if (sparse.look(twin) == twin.stepCount()) {
+    if (!sparse.look(twin)) {
       sparse.observe(record.data());
     }
     if (every.errorEstimate(0) > before) {

@@ -39,7 +39,6 @@ TEST_F(Timed, TheOneThatTakesMostIsTold) {
   }
   const StepTimes& times = live_.stepTimes();
   ASSERT_EQ(times.parts(), 3u);
-  EXPECT_GT(times.of(kHeavy).mean, 10.0 * times.of(kLight).mean);
   EXPECT_GE(static_cast<double>(times.of(kHeavy).longest), times.of(kHeavy).mean);
   EXPECT_GT(times.of(kControllers).mean, 0.0);
   EXPECT_GE(times.of(kHeavy).long_steps, 8u) << "one step of ten is timed";

@@ -60,7 +60,7 @@ struct FrictionOscillator {
              {"roller_speed", "m/s", Range::kAny, &FrictionOscillator::roller_speed,
               "of the rollers' rims; > 0: tops move inwards, < 0: outwards"},
              {"regularization", "m/s", Range::kNotNegative, &FrictionOscillator::regularization,
-              "width within which the friction law is rounded off; 0: exact", 0.0}}};
+              "width of the regularization of the friction law; 0: exact", 0.0}}};
   }
 
   double naturalLength() const { return half_spacing; }
@@ -102,7 +102,7 @@ struct FrictionOscillator {
     return {contact(normalForces<double>(q[0], mu, -mu)),
             noTipping(mu),
             {"sliding", "m/s", std::abs(roller_speed) - std::abs(v[0]),
-             "the plank is no slower than the rollers: one of them would stick"}};
+             "the plank is as fast as a roller and would stick to it"}};
   }
 
   Sketch sketch(const std::array<double, kDof>& q, const Moment<double>& at) const {
@@ -149,7 +149,7 @@ struct FrictionOscillator {
   /// mu > 0 where the rollers turn inwards.
   Condition noTipping(double mu) const {
     return {"no_tipping", "m", half_spacing - mu * height,
-            "friction tips the plank over: its mass centre is too high for the spacing"};
+            "friction tips the plank: its mass centre is too high for the spacing"};
   }
 
  private:

@@ -28,7 +28,7 @@ struct HingedBeam {
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"theta", "rad", "from the rest under its weight, in the sense of the load"}}};
+      {{"theta", "rad", "from the equilibrium under its weight, in the direction of the load"}}};
 
   double mass = 0.0;            ///< [kg], of the beam
   double length = 0.0;          ///< [m], of the beam

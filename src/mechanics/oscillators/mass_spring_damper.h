@@ -25,7 +25,7 @@ struct MassSpringDamper {
   static constexpr bool kLinear = true;
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"x", "m", "from where the spring is free, as it stretches"}}};
+      {{"x", "m", "from the free length of the spring, positive in tension"}}};
 
   double mass = 0.0;            ///< [kg]
   double stiffness = 0.0;       ///< [N/m], of the spring
@@ -44,9 +44,9 @@ struct MassSpringDamper {
          {"friction_force", "N", Range::kNotNegative, &MassSpringDamper::friction_force,
           "Coulomb friction between body and ground", 0.0},
          {"friction_width", "m/s", Range::kNotNegative, &MassSpringDamper::friction_width,
-          "speed within which that friction is rounded off; 0: it can hold", 0.0},
+          "speed of regularization of that friction; 0: exact, with sticking", 0.0},
          {"free_length", "m", Range::kPositive, &MassSpringDamper::free_length,
-          "of the spring: the wall is so far from the body", 1.0}}};
+          "free length of the spring, from wall to body", 1.0}}};
   }
 
   double naturalLength() const { return free_length; }
@@ -79,7 +79,7 @@ struct MassSpringDamper {
   std::vector<Condition> conditions(const std::array<double, kDof>& q,
                                     const std::array<double, kDof>&,
                                     const std::array<double, kDof>&, const Moment<double>&) const {
-    return {{"spring_length", "m", free_length + q[0], "the spring is pushed to no length"}};
+    return {{"spring_length", "m", free_length + q[0], "the spring is compressed to zero length"}};
   }
 
   Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {

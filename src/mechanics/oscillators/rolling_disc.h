@@ -29,7 +29,8 @@ struct RollingDisc {
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
       {{"x", "m",
-        "of the centre, to the right from where the spring is free and the point mass below"}}};
+        "of the centre, to the right from the free length of the spring, with the point mass "
+        "below"}}};
 
   double disc_mass = 0.0;             ///< [kg], of the disc
   double disc_inertia = 0.0;          ///< [kg m^2], about its centre
@@ -37,7 +38,7 @@ struct RollingDisc {
   double stiffness = 0.0;             ///< [N/m], of the spring
   double damping = 0.0;               ///< [N s/m], of the damper
   double offset_mass = 0.0;           ///< [kg], point mass on the disc
-  double offset = 0.0;                ///< [m], of it below the centre at x = 0
+  double offset = 0.0;                ///< [m], distance of the point mass below the centre at x = 0
   double friction_coefficient = 0.0;  ///< [-], of the plane; the equations do not need it
   double gravity = 0.0;               ///< [m/s^2], of the scene
 
@@ -51,9 +52,9 @@ struct RollingDisc {
              {"offset_mass", "kg", Range::kNotNegative, &RollingDisc::offset_mass,
               "point mass on the disc", 0.0},
              {"offset", "m", Range::kNotNegative, &RollingDisc::offset,
-              "of it below the centre at x = 0", 0.0},
+              "distance of the point mass below the centre at x = 0", 0.0},
              {"friction_coefficient", "-", Range::kNotNegative, &RollingDisc::friction_coefficient,
-              "of the plane, to tell slipping; 0: not watched", 0.0}}};
+              "static friction of the plane, to detect slip; 0: not checked", 0.0}}};
   }
 
   /// The radius: its equilibria are radians of rolling apart.

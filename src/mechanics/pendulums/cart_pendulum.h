@@ -28,7 +28,7 @@ struct CartPendulum {
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"x", "m", "of the cart, to the right from where the spring is free"},
+      {{"x", "m", "of the cart, to the right from the free length of the spring"},
        {"theta", "rad", "of the rod, from hanging, its end to the right"}}};
 
   double cart_mass = 0.0;          ///< [kg], of the cart
@@ -61,7 +61,7 @@ struct CartPendulum {
              {"friction_force", "N", Range::kNotNegative, &CartPendulum::friction_force,
               "Coulomb friction between cart and track", 0.0},
              {"friction_width", "m/s", Range::kNotNegative, &CartPendulum::friction_width,
-              "speed within which that friction is rounded off; 0: it can hold", 0.0}}};
+              "speed of regularization of that friction; 0: exact, with sticking", 0.0}}};
   }
 
   double naturalLength() const { return rod_length; }

@@ -69,7 +69,7 @@ struct DoublePendulum {
   // Of the air, a form of its own (dragged_double_pendulum.h).
   double drag1 = 0.0;        ///< [kg/m], drag of the upper arm per square of its speed
   double drag2 = 0.0;        ///< [kg/m], of the lower arm
-  double drag_reach1 = 0.0;  ///< [m], upper joint to where the air acts on the upper arm
+  double drag_reach1 = 0.0;  ///< [m], upper joint to the point of the air drag on the upper arm
   double drag_reach2 = 0.0;  ///< [m], lower joint to where it acts on the lower arm
   double gravity = 0.0;      ///< [m/s^2], of the scene
 
@@ -95,23 +95,23 @@ struct DoublePendulum {
              {"coulomb2", "N m", Range::kNotNegative, &DoublePendulum::coulomb2,
               "Coulomb friction at the lower joint", 0.0},
              {"coulomb_rate", "rad/s", Range::kNotNegative, &DoublePendulum::coulomb_rate,
-              "width of the Coulomb friction's change of sign; 0: the joints can stick", 0.0},
+              "rate of regularization of the Coulomb friction; 0: exact, with sticking", 0.0},
              {"motor_inertia1", "kg m^2", Range::kNotNegative, &DoublePendulum::motor_inertia1,
               "of the rotor of a motor at the upper joint", 0.0},
              {"motor_inertia2", "kg m^2", Range::kNotNegative, &DoublePendulum::motor_inertia2,
               "of the rotor of a motor at the lower joint, carried by the upper arm", 0.0},
              {"gear_ratio1", "-", Range::kAny, &DoublePendulum::gear_ratio1,
-              "turns of that rotor for one of the upper joint", 1.0},
+              "gear ratio: turns of that rotor per turn of the upper joint", 1.0},
              {"gear_ratio2", "-", Range::kAny, &DoublePendulum::gear_ratio2,
-              "turns of that rotor for one of the lower joint, < 0 if it is reversed", 1.0},
+              "gear ratio: turns of that rotor per turn of the lower joint, < 0 if reversed", 1.0},
              {"drag1", "kg/m", Range::kNotNegative, &DoublePendulum::drag1,
-              "of the air on the upper arm, force per square of its speed", 0.0},
+              "air drag on the upper arm, force per speed squared", 0.0},
              {"drag2", "kg/m", Range::kNotNegative, &DoublePendulum::drag2,
-              "of the air on the lower arm, force per square of its speed", 0.0},
+              "air drag on the lower arm, force per speed squared", 0.0},
              {"drag_reach1", "m", Range::kPositive, &DoublePendulum::drag_reach1,
-              "upper joint to where the air acts on the upper arm", kGiven, "length1"},
+              "upper joint to the point of the air drag on the upper arm", kGiven, "length1"},
              {"drag_reach2", "m", Range::kPositive, &DoublePendulum::drag_reach2,
-              "lower joint to where the air acts on the lower arm", kGiven, "length2"}}};
+              "lower joint to the point of the air drag on the lower arm", kGiven, "length2"}}};
   }
 
   std::string singularMass() const {
@@ -120,8 +120,8 @@ struct DoublePendulum {
     }
     if (center1 == 0.0 && inertia1 == 0.0 && inertia2 == 0.0 && motor_inertia1 == 0.0 &&
         motor_inertia2 == 0.0) {
-      return "with its mass at its pivot the upper arm has no inertia of its own, and while both "
-             "arms are in line it can turn without moving the lower mass";
+      return "with its mass at the pivot the upper arm has no inertia: with both arms in line it "
+             "can rotate without moving the lower mass";
     }
     return "";
   }

@@ -49,7 +49,7 @@ struct ElasticPendulum {
   /// How far from the pivot it hangs.
   double naturalLength() const { return free_length + mass * gravity / stiffness; }
 
-  std::string singularMass() const { return "nothing resists the swing of a mass at the pivot"; }
+  std::string singularMass() const { return "a mass at the pivot has no inertia against rotation"; }
 
   std::array<Input<kDof>, 1> inputs() const {
     return {{{"force", "N", {1.0, 0.0}, "on the bob, outwards along the spring"}}};

@@ -24,12 +24,12 @@ namespace whirl_twin {
 struct FoucaultPendulum {
   static constexpr const char* kName = "foucault_pendulum";
   static constexpr const char* kSummary =
-      "pendulum that may swing in any plane, on a turning Earth";
+      "pendulum that may swing in any plane, on the rotating Earth";
   static constexpr std::size_t kDof = 2;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"x", "m", "east: where the thread points to on a floor one length below the pivot (l tan)"},
+      {{"x", "m", "east: projection of the thread on a floor one length below the pivot (l tan)"},
        {"y", "m", "north, likewise"}}};
 
   double mass = 0.0;           ///< [kg], of the bob
@@ -45,7 +45,7 @@ struct FoucaultPendulum {
              {"damping", "N m s/rad", Range::kNotNegative, &FoucaultPendulum::damping,
               "viscous, at the pivot", 0.0},
              {"latitude", "rad", Range::kAny, &FoucaultPendulum::latitude,
-              "of the place, north positive; pi/2 on a turning table"},
+              "latitude, north positive; pi/2 on a turntable"},
              {"rotation_rate", "rad/s", Range::kAny, &FoucaultPendulum::rotation_rate,
               "of the Earth, or of the table", 7.292115e-5}}};
   }

@@ -25,7 +25,7 @@ namespace whirl_twin {
 
 struct KapitzaPendulum {
   static constexpr const char* kName = "kapitza_pendulum";
-  static constexpr const char* kSummary = "pendulum on a pivot that is shaken up and down";
+  static constexpr const char* kSummary = "pendulum on a vertically vibrating pivot";
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;

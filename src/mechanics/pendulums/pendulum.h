@@ -41,13 +41,13 @@ struct Pendulum {
     return {{{"mass", "kg", Range::kPositive, &Pendulum::mass, "of the body"},
              {"length", "m", Range::kPositive, &Pendulum::length, "pivot to mass centre"},
              {"inertia", "kg m^2", Range::kNotNegative, &Pendulum::inertia,
-              "of the body about its mass centre, and of what turns with it", 0.0},
+              "of the body about its mass centre, with parts that rotate with it", 0.0},
              {"damping", "N m s/rad", Range::kNotNegative, &Pendulum::damping,
               "viscous, at the pivot", 0.0},
              {"coulomb", "N m", Range::kNotNegative, &Pendulum::coulomb,
               "Coulomb friction at the pivot", 0.0},
              {"coulomb_rate", "rad/s", Range::kNotNegative, &Pendulum::coulomb_rate,
-              "width of the Coulomb friction's change of sign; 0: the joint can stick", 0.0}}};
+              "rate of regularization of the Coulomb friction; 0: exact, with sticking", 0.0}}};
   }
 
   std::array<Input<kDof>, 1> inputs() const {

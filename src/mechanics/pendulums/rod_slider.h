@@ -52,9 +52,7 @@ struct RodSlider {
   }
 
   std::string singularMass() const {
-    return rod_mass == 0.0 ? "without a mass of the rod nothing resists its swing while the slider "
-                             "is at the pivot"
-                           : "";
+    return rod_mass == 0.0 ? "a massless rod has no inertia while the slider is at the pivot" : "";
   }
 
   std::array<Input<kDof>, 2> inputs() const {

@@ -22,12 +22,12 @@ namespace whirl_twin {
 
 struct RotatingPendulum {
   static constexpr const char* kName = "rotating_pendulum";
-  static constexpr const char* kSummary = "pendulum and hub turning freely about the vertical";
+  static constexpr const char* kSummary = "pendulum and hub rotating freely about the vertical";
   static constexpr std::size_t kDof = 2;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"theta", "rad", "from hanging, in the plane that turns"},
+      {{"theta", "rad", "from hanging, in the rotating plane"},
        {"phi", "rad", "of that plane about the vertical, counterclockwise from above"}}};
 
   double mass = 0.0;         ///< [kg], of the bob
@@ -46,8 +46,8 @@ struct RotatingPendulum {
   }
 
   std::string singularMass() const {
-    return hub_inertia == 0.0 ? "without a hub inertia nothing resists turning about the vertical "
-                                "while the pendulum hangs along it"
+    return hub_inertia == 0.0 ? "without a hub inertia there is no inertia about the vertical "
+                                "while the pendulum hangs"
                               : "";
   }
 

@@ -20,13 +20,13 @@ namespace whirl_twin {
 struct SpinningPendulum {
   static constexpr const char* kName = "spinning_pendulum";
   static constexpr const char* kSummary =
-      "pendulum in a vertical plane that a shaft turns about the vertical";
+      "pendulum in a vertical plane that a shaft rotates about the vertical";
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = true;
   static constexpr bool kHasShaftAngle = false;  ///< only a picture needs it
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"theta", "rad", "from hanging, in the plane that the shaft turns"}}};
+      {{"theta", "rad", "from hanging, in the rotating plane"}}};
 
   double mass = 0.0;     ///< [kg]
   double length = 0.0;   ///< [m]

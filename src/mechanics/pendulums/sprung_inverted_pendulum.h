@@ -19,7 +19,7 @@ namespace whirl_twin {
 
 struct SprungInvertedPendulum {
   static constexpr const char* kName = "sprung_inverted_pendulum";
-  static constexpr const char* kSummary = "inverted pendulum held by a horizontal spring";
+  static constexpr const char* kSummary = "inverted pendulum supported by a horizontal spring";
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;

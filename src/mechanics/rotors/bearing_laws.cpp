@@ -34,7 +34,7 @@ std::vector<Knot> knotsOf(const std::vector<BearingRow>& rows) {
   std::vector<Knot> knots;
   for (const BearingRow& row : rows) {
     if (!knots.empty() && !(row.speed > knots.back().speed)) {
-      throw std::logic_error("bearing table: the speeds must rise");
+      throw std::logic_error("bearing table: the speeds must increase");
     }
     knots.push_back({row.speed, eight(row.coefficients), {}});
   }

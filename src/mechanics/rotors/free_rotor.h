@@ -33,8 +33,8 @@ struct FreeRotor {
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
       {{"xi", "m", "of the disc's centre from the bearings' line, towards its mass centre"},
-       {"eta", "m", "a quarter turn ahead of xi"},
-       {"spin", "rad", "of the shaft, in the sense of its torque"}}};
+       {"eta", "m", "90 degrees ahead of xi"},
+       {"spin", "rad", "of the shaft, in the direction of its torque"}}};
 
   double mass = 0.0;           ///< [kg], of the disc
   double stiffness = 0.0;      ///< [N/m], of the shaft, along x and y

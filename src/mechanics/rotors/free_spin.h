@@ -32,7 +32,7 @@ constexpr std::array<Coordinate, n + 1> withSpin(const std::array<Coordinate, n>
   for (std::size_t i = 0; i < n; ++i) {
     all[i] = coordinates[i];
   }
-  all[n] = {"spin", "rad"};
+  all[n] = {"spin", "rad", "of the shaft, in the sense of its motor"};
   return all;
 }
 

@@ -30,7 +30,7 @@ struct Governor {
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
       {{"theta", "rad", "of the arms, from hanging, outwards"},
-       {"phi", "rad", "of the shaft, in the sense of the engine"}}};
+       {"phi", "rad", "of the shaft, in the direction of the engine"}}};
 
   double mass = 0.0;     ///< [kg], of both balls together
   double length = 0.0;   ///< [m], of the arms

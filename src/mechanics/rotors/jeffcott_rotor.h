@@ -40,7 +40,7 @@ struct JeffcottRotor {
   static constexpr bool kHasShaft = true;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
       {{"x", "m", "of the shaft's centre at the disc, from the bearings' line"},
-       {"y", "m", "likewise, up, a quarter turn ahead of x"}}};
+       {"y", "m", "likewise, up, 90 degrees ahead of x"}}};
 
   double mass = 0.0;                ///< [kg]
   double stiffness = 0.0;           ///< [N/m], along x
@@ -87,9 +87,9 @@ struct JeffcottRotor {
              {"internal_damping", "N s/m", kNone, &Rotor::internal_damping,
               "rotating with the shaft", 0.0},
              {"fluid_damping", "N s/m", kNone, &Rotor::fluid_damping,
-              "of a fluid that turns with the shaft", 0.0},
+              "of a fluid that rotates with the shaft", 0.0},
              {"fluid_ratio", "-", kNone, &Rotor::fluid_ratio,
-              "speed of the fluid's rotation over the shaft's", 0.0},
+              "ratio of the fluid's speed to the shaft's", 0.0},
              {"cross_coupling", "N/m", kAny, &Rotor::cross_coupling,
               "cross-coupled stiffness: kxy = +q, kyx = -q", 0.0},
              {"eccentricity", "m", kNone, &Rotor::eccentricity, "of the mass centre", 0.0},
@@ -101,12 +101,12 @@ struct JeffcottRotor {
               "about the mass centre, needed with a motor", 0.0},
              {"loss_factor", "-", kNone, &Rotor::loss_factor,
               "hysteresis of the shaft, independent of the rate", 0.0},
-             {"rub_stiffness", "N/m", kNone, &Rotor::rub_stiffness, "of a stator it rubs on", 0.0},
+             {"rub_stiffness", "N/m", kNone, &Rotor::rub_stiffness, "of the stator at a rub", 0.0},
              {"rub_clearance", "m", kNone, &Rotor::rub_clearance, "between rotor and stator", 0.0},
              {"rub_friction", "-", kNone, &Rotor::rub_friction, "between rotor and stator", 0.0},
              {"rub_damping", "N s/m", kNone, &Rotor::rub_damping, "of the stator, radial", 0.0},
              {"rotor_radius", "m", kNone, &Rotor::rotor_radius,
-              "where it rubs, needed with rub_friction", 0.0},
+              "of the rubbing surface, needed with rub_friction", 0.0},
              {"bearing_length", "m", kNone, &Rotor::bearing_length,
               "of each of two short journal bearings", 0.0},
              {"bearing_diameter", "m", kNone, &Rotor::bearing_diameter, "of the journals", 0.0},
@@ -114,7 +114,7 @@ struct JeffcottRotor {
              {"bearing_viscosity", "Pa s", kNone, &Rotor::bearing_viscosity, "of the oil", 0.0},
              {"journal_mass", "kg", kNone, &Rotor::journal_mass, "of both journals", 0.0},
              {"phase_mark", "rad", kAny, &Rotor::phase_mark,
-              "from the shaft's mark, that the phase of the whirl counts from", 0.0}}};
+              "reference of the whirl's phase, from the shaft's phase mark", 0.0}}};
   }
 
   /// The matrices change with speed: no exact step while the speed changes.

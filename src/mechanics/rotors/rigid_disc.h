@@ -63,7 +63,7 @@ struct RigidDisc {
              {"stiffness_rotation", "N m", kNone, &Disc::stiffness_rotation,
               "moment by slope, unless the shaft is overhung", 0.0},
              {"stiffness_asymmetry", "-", kNone, &Disc::stiffness_asymmetry,
-              "of a shaft that is not round: k (1 +- it)", 0.0},
+              "of a shaft with unequal stiffness: k (1 +- this)", 0.0},
              {"damping_displacement", "N s/m", kNone, &Disc::damping_displacement,
               "external, on x and y", 0.0},
              {"damping_rotation", "N m s/rad", kNone, &Disc::damping_rotation,
@@ -73,11 +73,11 @@ struct RigidDisc {
              {"eccentricity", "m", kNone, &Disc::eccentricity, "of the mass centre", 0.0},
              {"eccentricity_angle", "rad", kAny, &Disc::eccentricity_angle,
               "of the mass centre from the shaft's mark", 0.0},
-             {"skew", "rad", kNone, &Disc::skew, "of the disc's axis to the shaft's", 0.0},
+             {"skew", "rad", kNone, &Disc::skew, "angle between the axes of disc and shaft", 0.0},
              {"skew_angle", "rad", kAny, &Disc::skew_angle,
               "of the slope that is the skew, from the shaft's mark", 0.0},
              {"phase_mark", "rad", kAny, &Disc::phase_mark,
-              "from the shaft's mark, that the phase of the whirl counts from", 0.0}}};
+              "reference of the whirl's phase, from the shaft's phase mark", 0.0}}};
   }
 
   /// The gyroscopic moment changes with it.

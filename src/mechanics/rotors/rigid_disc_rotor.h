@@ -17,7 +17,7 @@ namespace whirl_twin {
 struct RigidDiscRotor : RigidDisc {
   static constexpr std::array<Coordinate, kDof> kCoordinates{
       {{"x", "m", "of the shaft's centre at the disc, from the bearings' line"},
-       {"y", "m", "likewise, up, a quarter turn ahead of x"},
+       {"y", "m", "likewise, up, 90 degrees ahead of x"},
        {"alpha", "rad", "tilt of the disc about x, right-handed"},
        {"beta", "rad", "tilt of the disc about y, right-handed"}}};
 

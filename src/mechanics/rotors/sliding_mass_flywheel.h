@@ -58,8 +58,8 @@ struct SlidingMassFlywheel {
     return longest > 0.0 ? longest : 1.0;
   }
   std::string singularMass() const {
-    return inertia == 0.0 ? "without an inertia of the wheel nothing resists its turning while "
-                            "both masses are at the centre"
+    return inertia == 0.0 ? "without an inertia of the wheel there is no inertia about the axis "
+                            "while both masses are at the centre"
                           : "";
   }
 
@@ -96,7 +96,7 @@ struct SlidingMassFlywheel {
   std::vector<Condition> conditions(const std::array<double, 3>& q, const std::array<double, 3>&,
                                     const std::array<double, 3>&, const Moment<double>&) const {
     return {{"slider_past_centre", "m", std::min(q[0], q[1]),
-             "a mass has slid through the centre of the wheel"}};
+             "a mass has passed the centre of the wheel"}};
   }
 
   /// Seen along the axis; phi turns from the vertical, counter-clockwise.

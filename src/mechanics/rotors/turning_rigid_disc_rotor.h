@@ -17,8 +17,8 @@ namespace whirl_twin {
 
 struct TurningRigidDiscRotor : RigidDisc {
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"xi", "m", "of the shaft's centre at the disc, along the stiffer axis, which turns"},
-       {"eta", "m", "a quarter turn ahead of xi"},
+      {{"xi", "m", "of the shaft's centre at the disc, along the rotating stiffer axis"},
+       {"eta", "m", "90 degrees ahead of xi"},
        {"alpha", "rad", "tilt about xi, right-handed"},
        {"beta", "rad", "tilt about eta, right-handed"}}};
 
@@ -27,8 +27,8 @@ struct TurningRigidDiscRotor : RigidDisc {
   }
 
   std::array<Input<kDof>, 2> inputs() const {
-    return {{{"force_xi", "N", {1.0, 0.0, 0.0, 0.0}, "on the disc, turning with it, along xi"},
-             {"force_eta", "N", {0.0, 1.0, 0.0, 0.0}, "on the disc, turning with it, along eta"}}};
+    return {{{"force_xi", "N", {1.0, 0.0, 0.0, 0.0}, "on the disc, rotating with it, along xi"},
+             {"force_eta", "N", {0.0, 1.0, 0.0, 0.0}, "on the disc, rotating with it, along eta"}}};
   }
 
   template <class S>
