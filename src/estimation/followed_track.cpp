@@ -12,9 +12,15 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::int64_t kResidualSettling = 200'000'000;  // ns
-constexpr double kResidualWindow = 1.0;  // s, of residuals, and from parameter to parameter
-constexpr double kWarmUp = 120.0;        // s, of a parameter's reference
-constexpr double kMatters = 0.02;        // of a parameter
+/// Just before the filter learns more than the motion (system_filter.cpp).
+constexpr std::int64_t kMotionFound = 45'000'000;  // ns
+/// Of the samples until then. Outliers are fewer, and what one of four probes shows is more.
+constexpr double kMostRefusedAtFirst = 0.2;
+/// Of residuals, for the covariance: longer than a whirl or a filtered hum is correlated.
+constexpr std::int64_t kBlock = 250'000'000;  // ns
+constexpr double kResidualWindow = 1.0;       // s, of residuals, and from parameter to parameter
+constexpr double kWarmUp = 120.0;             // s, of a parameter's reference
+constexpr double kMatters = 0.02;             // of a parameter
 
 /// Of `stiffness`, or of a column, `bearings[0].kxx`; "" of the entries of a matrix.
 std::string parameterUnit(const ModelInfo& model, const std::string& path) {
@@ -43,6 +49,7 @@ FollowedTrack::FollowedTrack(const Twin& twin, std::size_t system, const SystemF
       drive(twin.systems()[system]->drive),
       residuals(filter.channels().size(), {kResidualWindow, false_alarms}),
       drift(settings.parameters.size(), {kResidualWindow, kWarmUp, kMatters, false_alarms}),
+      robust(filter.learnedCovariance().diagonal().cwiseSqrt(), filter.learnedWalk()),
       innovations(filter.channels().size(), kNaN),
       surest(innovations) {
   told.system = twin.systems()[system]->spec.name;
@@ -74,12 +81,49 @@ bool FollowedTrack::settled(std::int64_t instant) const {
   return instant - began > kResidualSettling;
 }
 
+void FollowedTrack::beginMotion(std::int64_t instant, bool again_now) {
+  again = again_now;
+  began = last_used = instant;
+  used_before = told.used;
+  refused_before = told.refused;
+  residuals.restart();
+}
+
+bool FollowedTrack::beganWrong(std::int64_t instant) const {
+  const auto refused = static_cast<double>(told.refused - refused_before);
+  const auto used = static_cast<double>(told.used - used_before);
+  return !again && instant - began > kMotionFound && instant - began < kResidualSettling &&
+         refused > kMostRefusedAtFirst * (refused + used);
+}
+
 void FollowedTrack::endInstant() {
   if (settled(at)) {
     residuals.take(static_cast<double>(at) * 1.0e-9, innovations.data(), innovations.size(),
                    surest.data());
   }
   std::fill(innovations.begin(), innovations.end(), kNaN);
+  endBlock(false);
+}
+
+void FollowedTrack::endBlock(bool at_once) {
+  const std::int64_t duration = at - block_began;
+  if (duration <= 0 || (duration < kBlock && !at_once)) {
+    return;
+  }
+  block_began = at;
+  if (filter.looksAtItsStart()) {
+    // A look puts another estimate in its place.
+    robust.restart(filter.learned(), filter.learnedCovariance());
+  } else if (filter.byProbes()) {
+    robust.resume(filter.learned(), filter.learnedCovariance());
+  } else {
+    robust.add(filter.learned(), filter.learnedCovariance(),
+               kNanosecond * static_cast<double>(duration));
+  }
+}
+
+void FollowedTrack::forgetFactors() {
+  robust.restart(filter.learned(), filter.learnedCovariance());
 }
 
 void FollowedTrack::tellWhatIsKnown(double time) {
@@ -87,7 +131,8 @@ void FollowedTrack::tellWhatIsKnown(double time) {
   told.deviation.clear();
   for (std::size_t i = 0; i < told.parameter.size(); ++i) {
     told.value.push_back(filter.parameter(i));
-    told.deviation.push_back(filter.parameterDeviation(i));
+    told.deviation.push_back(filter.parameterDeviation(i) *
+                             robust.factors()[static_cast<Eigen::Index>(i)]);
   }
   for (std::size_t c = 0; c < told.channel.size(); ++c) {
     told.offset[c] = filter.hasOffset(c) ? filter.offset(c) : state::FollowState::kNone;

@@ -24,6 +24,10 @@ const SystemFilter* Follower::filter(std::size_t system) const {
   return systems_[system] ? &systems_[system]->filter : nullptr;
 }
 
+const Eigen::VectorXd& Follower::deviationFactors(std::size_t system) const {
+  return systems_[system]->robust.factors();
+}
+
 std::vector<double> Follower::residualRms(std::size_t system) const {
   const FollowedTrack& followed = *systems_[system];
   std::vector<double> rms;
@@ -52,6 +56,7 @@ void Follower::finish() {
   for (const auto& system : systems_) {
     if (system && system->runs) {
       system->endInstant();
+      system->endBlock(true);
     }
     if (system && began_) {
       tellState(*system);
@@ -146,10 +151,9 @@ void Follower::takeSample(const MeasuredSample& sample) {
     restarts_ += system.runs ? 1 : 0;
     system.filter.begin(there, twin_.scene().time - origin_, shaft.deviation);
     system.runs = true;
-    system.began = instant;
+    system.block_began = instant;
     system.at = instant;
-    system.last_used = instant;
-    system.residuals.restart();
+    system.beginMotion(instant);
   }
   if (instant < system.filter.shaft().time) {
     ++system.overtaken;  // by a channel with less delay
@@ -161,9 +165,15 @@ void Follower::takeSample(const MeasuredSample& sample) {
   }
   takeNextInputs(system);
   system.filter.goTo(there, shaft.deviation);
+  if (system.beganWrong(instant)) {
+    system.filter.forgetMotion();
+    system.beginMotion(instant, true);
+    ++restarts_;
+  }
   const Innovation innovation = system.filter.take(channel.place, sample.value, sample.deviation);
   if (!system.filter.isFinite()) {  // an estimate that ran away teaches nothing
     system.filter.startOver();
+    system.forgetFactors();
     system.runs = false;
     ++restarts_;
     return;
@@ -189,9 +199,7 @@ void Follower::takeSample(const MeasuredSample& sample) {
   if (instant - system.last_used > kLost) {
     // Nothing agrees with the motion any more: it is the motion that is wrong.
     system.filter.forgetMotion();
-    system.began = instant;
-    system.last_used = instant;
-    system.residuals.restart();
+    system.beginMotion(instant);
     ++restarts_;
   }
 }

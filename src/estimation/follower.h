@@ -47,6 +47,8 @@ class Follower {
 
   /// Of a system that is measured; nullptr: it is not.
   const SystemFilter* filter(std::size_t system) const;
+  /// Of all that its filter has learned: standard deviations over those of its covariance.
+  const Eigen::VectorXd& deviationFactors(std::size_t system) const;
   /// [ns], of the machine's clock.
   std::int64_t machineInstant(std::int64_t step) const;
   /// Root mean square of the residuals of each channel, from when its motion was found; NaN: none.

@@ -311,6 +311,33 @@ Eigen::Matrix2d SystemFilter::unbalanceCovariance(std::size_t station) const {
          back.toRotationMatrix().transpose();
 }
 
+Eigen::VectorXd SystemFilter::learned() const {
+  Eigen::VectorXd numbers = filter_.state().tail(filter_.size() - 2 * n_);
+  const Eigen::Rotation2Dd back(-now_.angle.remainder);
+  for (Eigen::Index i = unbalance_ - 2 * n_; i < offset_ - 2 * n_; i += 2) {
+    numbers.segment<2>(i) = back * Eigen::Vector2d(numbers.segment<2>(i));
+  }
+  return numbers;
+}
+
+Eigen::MatrixXd SystemFilter::learnedCovariance() const {
+  const Eigen::Index all = filter_.size() - 2 * n_;
+  Eigen::MatrixXd back = Eigen::MatrixXd::Identity(all, all);
+  for (Eigen::Index i = unbalance_ - 2 * n_; i < offset_ - 2 * n_; i += 2) {
+    back.block<2, 2>(i, i) = Eigen::Rotation2Dd(-now_.angle.remainder).toRotationMatrix();
+  }
+  return back * filter_.covariance().bottomRightCorner(all, all) * back.transpose();
+}
+
+Eigen::VectorXd SystemFilter::learnedWalk() const {
+  Eigen::VectorXd walk = Eigen::VectorXd::Zero(filter_.size() - 2 * n_);
+  for (Eigen::Index i = 0; i < m_; ++i) {
+    walk[i] = settings_.parameters[static_cast<std::size_t>(i)].number.walk;
+  }
+  walk.segment(m_, run_out_ - unbalance_).setConstant(settings_.unbalance.walk);
+  return walk.cwiseAbs2();
+}
+
 KalmanFilter::Expected SystemFilter::combined(const Eigen::VectorXd& row) const {
   Eigen::VectorXd h = Eigen::VectorXd::Zero(filter_.size());
   h.head(2 * n_) = row;

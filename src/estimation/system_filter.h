@@ -118,11 +118,19 @@ class SystemFilter {
   bool holdsModel() const { return held_; }
   bool hasOffset(std::size_t channel) const { return offset_of_[channel] >= 0; }
 
+  /// All that is estimated beside the motion: numbers of the parameters, unbalances and run-outs
+  /// (x, y) from the shaft's phase mark, offsets.
+  Eigen::VectorXd learned() const;
+  Eigen::MatrixXd learnedCovariance() const;
+  /// Of each of these: its own change in a time t has the variance this times t.
+  Eigen::VectorXd learnedWalk() const;
+
  private:
   /// Of a linear system, and what it was made for.
   struct KeptStep {
     MotionStep step;
     double speed = 0.0;         // [rad/s]
+    Eigen::MatrixXd by_state;   // accelerations [n x 2n]
     std::int64_t version = -1;  // of the model
   };
 
@@ -134,7 +142,7 @@ class SystemFilter {
   void setTurning(double angle);
   Eigen::VectorXd moved(const Eigen::VectorXd& state, const ShaftPath& path);
   Eigen::VectorXd inputsAt(const ShaftPath& path, double part) const;
-  const MotionStep& stepFor(const ShaftPath& path);
+  const KeptStep& stepFor(const ShaftPath& path);
   /// The covariance goes through a step; unbalances and run-outs turn by the path's angle.
   void spread(const MotionStep& step, const ShaftPath& path);
   Eigen::MatrixXd turningNoise(const ShaftPath& path);

@@ -93,7 +93,7 @@ void SystemFilter::goOn(const ShaftInstant& there) {
       station_directions_.col(k + 1) = mass.solve(stations_[i].along_y);
     }
   }
-  const Eigen::VectorXd next = moved(filter_.state(), path);
+  Eigen::VectorXd next = moved(filter_.state(), path);
   const Eigen::VectorXd middle = 0.5 * (filter_.state() + next);
   const bool linear = model_.system()->dynamics->linear();
   MotionStep about;  // the middle, of a nonlinear system
@@ -101,11 +101,16 @@ void SystemFilter::goOn(const ShaftInstant& there) {
     const LocalMotion local = model_.about(middle.head(n_), middle.segment(n_, n_), path.at(0.5),
                                            numbers(), inputsAt(path, 0.5));
     by_parameter_ = local.by_parameter;
-    if (!linear) {
+    if (linear) {
+      // Of a shaft that speeds up, the step that is kept lags behind.
+      const KeptStep& kept = stepFor(path);
+      next.head(2 * n_) +=
+          kept.step.forced * ((local.by_state - kept.by_state) * middle.head(2 * n_));
+    } else {
       about = MotionStep(local.by_state, path.duration());
     }
   }
-  spread(linear ? stepFor(path) : about, path);
+  spread(linear ? stepFor(path).step : about, path);
   filter_.state() = next;
   now_ = there;
 }
@@ -139,7 +144,7 @@ Eigen::VectorXd SystemFilter::moved(const Eigen::VectorXd& state, const ShaftPat
   const Eigen::VectorXd y = state.head(2 * n_);
   Eigen::VectorXd next = state;
   if (model_.system()->dynamics->linear()) {
-    const MotionStep& step = stepFor(path);
+    const MotionStep& step = stepFor(path).step;
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_);
     next.head(2 * n_).noalias() = step.states * y;
     for (std::size_t k = 0; k < MotionStep::kNode.size(); ++k) {
@@ -166,20 +171,20 @@ Eigen::VectorXd SystemFilter::moved(const Eigen::VectorXd& state, const ShaftPat
 }
 
 /// Of a linear system; of those kept, if one is of the same duration and, nearly, speed.
-const MotionStep& SystemFilter::stepFor(const ShaftPath& path) {
+const SystemFilter::KeptStep& SystemFilter::stepFor(const ShaftPath& path) {
   const Moment<double> middle = path.at(0.5);
   for (const KeptStep& kept : steps_) {
     if (kept.step.duration == path.duration() && kept.version == model_.version() &&
         std::fabs(middle.speed - kept.speed) <= kSameSpeed * std::fabs(kept.speed)) {
-      return kept.step;
+      return kept;
     }
   }
   next_step_ = (next_step_ + 1) % steps_.size();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_);
   const LocalMotion local = model_.about(zero, zero, middle, numbers(), inputsAt(path, 0.5));
-  steps_[next_step_] = {MotionStep(local.by_state, path.duration()), middle.speed,
+  steps_[next_step_] = {MotionStep(local.by_state, path.duration()), middle.speed, local.by_state,
                         model_.version()};
-  return steps_[next_step_].step;
+  return steps_[next_step_];
 }
 
 Eigen::MatrixXd SystemFilter::unbalanceColumns(const ShaftPath& path, double part) const {

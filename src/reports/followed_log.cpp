@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -11,6 +12,9 @@
 namespace whirl_twin {
 
 namespace {
+
+/// The largest factor of a run-up that white residuals reach in one of twenty.
+constexpr double kNotWhite = 2.0;
 
 /// What a follower tells of one system, put together.
 class Course {
@@ -35,8 +39,10 @@ class Course {
     system_.last = told;
   }
 
-  void finish(const SystemFilter& filter) {
+  /// factors: of all that the filter has learned (Follower::deviationFactors()).
+  void finish(const SystemFilter& filter, const Eigen::VectorXd& factors) {
     for (const FollowedParameter& p : filter.model().parameters()) {
+      system_.factor.push_back(factors[static_cast<Eigen::Index>(system_.factor.size())]);
       system_.start.push_back(p.start);
     }
     for (const FollowedChannel& c : filter.channels()) {
@@ -45,8 +51,11 @@ class Course {
     const std::vector<Station>& stations = filter.unbalanceStations();
     for (std::size_t i = 0; i < stations.size(); ++i) {
       const Eigen::Vector2d u = filter.unbalance(i);
+      const Eigen::Vector2d variance = filter.unbalanceCovariance(i).diagonal();
+      const auto k = static_cast<Eigen::Index>(system_.start.size() + 2 * i);
+      const double wider = variance.dot(factors.segment<2>(k).cwiseAbs2()) / variance.sum();
       system_.unbalances.push_back({stations[i].name, u.norm(), std::atan2(u.y(), u.x()),
-                                    std::sqrt(0.5 * filter.unbalanceCovariance(i).trace())});
+                                    std::sqrt(0.5 * variance.sum() * wider), std::sqrt(wider)});
     }
   }
 
@@ -57,6 +66,18 @@ class Course {
 std::string plusMinus(double value, double deviation) {
   return std::isfinite(deviation) ? fmt::format("{:.6g} +- {:.2g}", value, deviation)
                                   : fmt::format("{:.6g}, not identifiable", value);
+}
+
+/// Of all deviations, the largest.
+double deviationFactor(const FollowedSystem& system) {
+  double factor = 1.0;
+  for (const double f : system.factor) {
+    factor = std::max(factor, f);
+  }
+  for (const FoundUnbalance& u : system.unbalances) {
+    factor = std::max(factor, u.factor);
+  }
+  return factor;
 }
 
 std::string followedSystemText(const FollowedSystem& system) {
@@ -73,6 +94,16 @@ std::string followedSystemText(const FollowedSystem& system) {
     out +=
         fmt::format("  unbalance {:<14} {} kg m at {:.2f} deg of the shaft, added to the scene's\n",
                     u.station, plusMinus(u.amount, u.deviation), u.angle * 57.29577951308232);
+  }
+  const double factor = deviationFactor(system);
+  if (factor > 1.0) {
+    out += fmt::format(
+        "  standard deviations are up to {:.2g} times those of white residuals: parts of the "
+        "record "
+        "differ by more{}\n",
+        factor,
+        factor > kNotWhite ? " (hum, an order of the shaft or a force that the model has not)"
+                           : "");
   }
   for (std::size_t c = 0; c < system.last.channel.size(); ++c) {
     if (system.is_input[c]) {
@@ -153,7 +184,7 @@ FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const st
   run.restarts = follower.restarts();
   for (std::size_t i = 0; i < systems.size(); ++i) {
     if (const SystemFilter* filter = follower.filter(i)) {
-      courses[i]->finish(*filter);
+      courses[i]->finish(*filter, follower.deviationFactors(i));
       systems[i].rms = follower.residualRms(i);
       run.systems.push_back(systems[i]);
     }
@@ -198,7 +229,8 @@ Json json(const FollowedLog& run) {
         {"found", s.found}, {"parameters", Json::object()}, {"channels", Json::object()}};
     for (std::size_t i = 0; i < s.last.parameter.size(); ++i) {
       system["parameters"][s.last.parameter[i]] = {{"value", s.last.value[i]},
-                                                   {"standard_deviation", s.last.deviation[i]}};
+                                                   {"standard_deviation", s.last.deviation[i]},
+                                                   {"deviation_factor", s.factor[i]}};
     }
     for (std::size_t c = 0; s.found && c < s.last.channel.size(); ++c) {
       if (s.is_input[c]) {
@@ -210,9 +242,12 @@ Json json(const FollowedLog& run) {
     }
     system["unbalances"] = Json::object();
     for (const FoundUnbalance& u : s.unbalances) {
-      system["unbalances"][u.station] = {
-          {"amount", u.amount}, {"angle", u.angle}, {"standard_deviation", u.deviation}};
+      system["unbalances"][u.station] = {{"amount", u.amount},
+                                         {"angle", u.angle},
+                                         {"standard_deviation", u.deviation},
+                                         {"deviation_factor", u.factor}};
     }
+    system["deviation_factor"] = deviationFactor(s);
     system["samples"] = {{"used", s.last.used},       {"refused", s.last.refused},
                          {"invalid", s.last.invalid}, {"late", s.last.late},
                          {"lost", s.last.lost},       {"repeated", s.last.repeated}};

@@ -23,12 +23,14 @@ struct FoundUnbalance {
   double amount = 0.0;     ///< [kg m]
   double angle = 0.0;      ///< [rad], of the shaft's angle 0
   double deviation = 0.0;  ///< [kg m], of either component
+  double factor = 1.0;     ///< of it: over that of white residuals
 };
 
 struct FollowedSystem {
   std::string name;
   bool found = false;          ///< its motion was found
   state::FollowState last;     ///< as told at the end
+  std::vector<double> factor;  ///< of each parameter's deviation: over that of white residuals
   std::vector<double> start;   ///< of its parameters, as the scene says
   std::vector<double> rms;     ///< of each channel: of the residuals [its unit]; NaN: none
   std::vector<bool> is_input;  ///< of each channel: it shows what acts
