@@ -195,7 +195,7 @@ TEST(FoundInputs, ARunOfMoreThanADayIsRefusedByItsNumbers) {
                        "--duration: 1000000 s in 1000000000 steps, 1000000 substeps each: takes "
                        "about "))
       << end.err;
-  EXPECT_TRUE(contains(end.err, "or --insist")) << end.err;
+  EXPECT_TRUE(contains(end.err, "with --insist")) << end.err;
   EXPECT_EQ(folder.files(), Lines{});
 }
 

@@ -55,4 +55,4 @@ class BrokenScene(NodeTrial):
     def test_no_scene_at_all(self):
         done = run('simulation_node')
         self.assertEqual(done.returncode, 2, done.stdout)
-        self.assertIn('no scene there', done.stdout)
+        self.assertIn('scene: missing', done.stdout)

@@ -116,7 +116,7 @@ class Commands(NodeTrial):
         answer = self.command('second', *speed)
         self.assertFalse(answer.done)
         self.assertRegex(answer.message, r'^first has the command for another [0-9.]+ s')
-        self.assertIn('first commands', self.ask('resume', Trigger).message)
+        self.assertIn('first has the command', self.ask('resume', Trigger).message)
         self.assertTrue(wait_until(lambda: self.diagnosed('taker: commands', WARN, 'commands are refused')))
         self.assertTrue(self.command('first', *speed).done)
         begun = time.monotonic()

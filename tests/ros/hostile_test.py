@@ -92,7 +92,7 @@ class Hostile(NodeTrial):
         watch = self.start_program(os.environ['WHIRL_TWIN_PROGRAM'], 'watch')
         monitors = []
         self.listen('/twin/monitor', MonitorStatus, monitors.append)
-        self.expect(lambda: monitors and self.says(terminal, 'rotor:') and self.says(watch, 'monitor: 0 alerts'), watch)
+        self.expect(lambda: monitors and self.says(terminal, 'rotor:') and self.says(watch, 'monitor: 0 active alerts'), watch)
         command = alarm_command_t()
         command.command, command.duration = 3, 3600.0
         self.datagram('TWIN_ALARM_COMMANDS', command.encode())

@@ -84,7 +84,7 @@ TEST(EnsembleCommands, CheckSaysHowItIsStepped) {
   const Ending end = twin({"check", folder.write("many.yaml", kScene), "--json"});
   ASSERT_EQ(end.status, 0) << end.err;
   const nlohmann::json rotor = end.json()["systems"]["rotor"];
-  EXPECT_EQ(rotor["ensemble"], "21 members, side by side in vectors");
+  EXPECT_EQ(rotor["ensemble"], "21 samples, side by side in vectors");
   EXPECT_EQ(rotor["topics"][5], nlohmann::json({{"topic", "/twin/rotor/ensemble"},
                                                 {"type", "whirl_twin/EnsembleState"}}));
   EXPECT_EQ(rotor["channels"][4], "TWIN_ROTOR_ENSEMBLE");

@@ -280,7 +280,7 @@ TEST_F(ChangedSwing, ThatCannotBeUsedIsSaid) {
   };
   write("time,q[mm]", row);
   EXPECT_THAT(refused("q[mm]", {"--check"}),
-              HasSubstr("column 'q[mm]': is in mm, and theta must be in rad"));
+              HasSubstr("column 'q[mm]': the unit is mm, but theta must be in rad"));
   write("time,q", [](double t, double theta) { return row(t, 1.0e9 * theta); });
   EXPECT_THAT(refused("q", {"--check"}),
               HasSubstr("column 'q': theta must be within 1e+06 rad, found 1e+09 at 0 s"));

@@ -51,7 +51,8 @@ TEST(HeldByFriction, AnalyzeSaysWhatHolds) {
   EXPECT_EQ(held[0]["held"], true);
   EXPECT_NEAR(std::fabs(held[0]["share"].get<double>()), 0.480526 * std::sin(0.3) / 0.3, 1e-6);
   EXPECT_EQ(end.json()["systems"]["p"]["acceleration"]["theta"], 0.0);
-  EXPECT_THAT(twin({"analyze", scene}).out, HasSubstr("dry friction at the pivot: 0.3 N m, holds"));
+  EXPECT_THAT(twin({"analyze", scene}).out,
+              HasSubstr("dry friction at the pivot: 0.3 N m, sticks"));
   const std::string loose = directory.write("loose.yaml", arm(0.1, 0.3));
   EXPECT_EQ(twin({"analyze", "--json", loose}).json()["systems"]["p"]["dry_friction"][0]["held"],
             false);

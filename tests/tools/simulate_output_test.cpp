@@ -66,14 +66,14 @@ TEST(Times, AreRoundedToWholeStepsAndItIsSaid) {
              0},
         Case{{"--duration", "0.1", "--sample", "0.0333333333333"},
              "twin: --sample: 0.0333333333333 s is not a whole number of steps of 0.001 s: 0.033 s "
-             "is taken\n",
+             "is used\n",
              100},
         Case{{"--duration", "0.01", "--step", "0.00033333333333"},
              "twin: --step: 0.00033333333333 s is not a whole number of nanoseconds: 0.000333333 s "
-             "is taken\n"
+             "is used\n"
              "twin: --duration: 0.01 s is not a whole number of steps of 0.000333333 s: 0.00999999 "
              "s "
-             "is taken\n",
+             "is used\n",
              30},
         Case{{"--duration", "0.667"}, "", 667}}) {
     std::vector<std::string> arguments{"simulate", kDemo, "--json"};

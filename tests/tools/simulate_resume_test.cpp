@@ -48,7 +48,7 @@ TEST(Resume, RefusesWhatItCannotGoOnFrom) {
     return end.err;
   };
   EXPECT_EQ(whyNot({"--duration", "1"}), "twin: --duration: must be more than the 1000 steps of " +
-                                             checkpoint + " is, found 1000 steps\n");
+                                             checkpoint + ", found 1000 steps\n");
   EXPECT_EQ(whyNot({"--step", "0.002"})
                 .find("twin: " + checkpoint +
                       ": must be saved from the same scene\n"

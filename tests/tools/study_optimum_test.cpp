@@ -18,7 +18,7 @@ TEST(StudyOptimum, IsPrintedAsTextAndAsJson) {
   const StudyFiles files(kStudy);
   const Ending text = twin({"sweep", files.study});
   ASSERT_EQ(text.status, 0) << text.err;
-  EXPECT_NE(text.out.find("maximum of decay over one number by cobyla"), std::string::npos);
+  EXPECT_NE(text.out.find("maximum of decay over one parameter by cobyla"), std::string::npos);
   EXPECT_NE(text.out.find("at the largest of its range"), std::string::npos) << text.out;
   const Ending end = twin({"sweep", files.study, "--json"});
   const nlohmann::json said = end.json();

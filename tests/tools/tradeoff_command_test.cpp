@@ -83,7 +83,7 @@ TEST(Tradeoff, ErrorsFallWithTheOrderAndTheRecommendedRowKeepsTheTolerance) {
     EXPECT_EQ(best["compared_until"].get<double>(), best["duration"].get<double>());
   }
   ASSERT_EQ(report["recommended"].size(), 2u);
-  EXPECT_EQ(report["recommended"][0]["auto"], "exponential, 1 a step");
+  EXPECT_EQ(report["recommended"][0]["auto"], "exponential, 1 per step");
   EXPECT_NEAR(report["recommended"][0]["largest_stable_step"]["semi_implicit_euler"].get<double>(),
               0.064, 1e-12)
       << "the coarsest that is tried: far below 2 / p";
