@@ -124,7 +124,7 @@ class Commands(NodeTrial):
         self.assertFalse(self.command('second', 'resume').done, 'and has no lease by that')
         time.sleep(max(0.0, LEASE + 0.2 - (time.monotonic() - begun)))
         self.assertTrue(self.command('second', 'resume').done, 'the lease has run out')
-        self.assertRegex(self.command('first', *speed).message, '^second commands')
+        self.assertRegex(self.command('first', *speed).message, '^second has the command')
         self.assertTrue(self.command('second', 'release').done)
         self.assertTrue(self.command('first', *speed).done)
 
