@@ -1,5 +1,7 @@
 // Whether a shaft starts up, and amplitudes are allowed to be larger (trip multiply): it gains
-// speed, or did a moment ago.
+// speed, or did a moment ago. It gains speed where its acceleration and the mean of about half a
+// second of differences of its speed say so: the acceleration of an instant, from a keyphasor's
+// pulses, is mostly noise.
 #pragma once
 
 #include <cmath>
@@ -27,9 +29,18 @@ class StartUp {
     if (time < gained_at_) {  // time was set back
       gained_at_ = kNeverGained;
     }
-    const bool gains = std::copysign(1.0, speed) * acceleration > acceleration_ ||
-                       (speed == 0.0 && std::abs(acceleration) > acceleration_);
-    if (gains) {
+    const double passed = time - time_;
+    const double now =
+        speed == 0.0 ? std::abs(acceleration) : std::copysign(1.0, speed) * acceleration;
+    if (!(passed >= 0.0) || !std::isfinite(mean_)) {  // the first, or time was set back
+      mean_ = now;
+    } else if (passed > 0.0) {
+      const double gained = (std::abs(speed) - std::abs(speed_)) / passed;
+      mean_ += (gained - mean_) * -std::expm1(-passed / kMeanOver);
+    }
+    time_ = time;
+    speed_ = speed;
+    if (now > acceleration_ && mean_ > acceleration_) {
       begun_ = time - gained_at_ >= tail_ ? time : begun_;
       gained_at_ = time;
     }
@@ -38,13 +49,17 @@ class StartUp {
 
  private:
   static constexpr double kNeverGained = -std::numeric_limits<double>::infinity();
+  static constexpr double kMeanOver = 0.5;  // s
 
   double multiply_ = 1.0;
   double acceleration_ = 0.0;
-  double tail_ = 0.0;                ///< [s], that the multiplied levels stay
-  double longest_ = 0.0;             ///< [s], that one start-up multiplies levels
-  double begun_ = 0.0;               ///< [s], when it began to gain speed
-  double gained_at_ = kNeverGained;  ///< [s], when it last gained speed
+  double tail_ = 0.0;     ///< [s], that the multiplied levels stay
+  double longest_ = 0.0;  ///< [s], that one start-up multiplies levels
+  double time_ = std::numeric_limits<double>::quiet_NaN();  ///< [s], of the last call
+  double speed_ = 0.0;                                      ///< [rad/s], likewise
+  double mean_ = 0.0;                                       ///< [rad/s^2], of the gain of speed
+  double begun_ = 0.0;                                      ///< [s], when it began to gain speed
+  double gained_at_ = kNeverGained;                         ///< [s], when it last gained speed
 };
 
 }  // namespace whirl_twin

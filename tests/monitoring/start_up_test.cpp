@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "messages/alert_types.h"
 #include "watched_twin.h"
 
@@ -65,7 +67,36 @@ TEST(StartUp, OneThatDoesNotEndMultipliesForSoLongOnly) {
     EXPECT_EQ(start_up.multiplier(time, 10.0 + time, 1.0), time < 5.0 - 1e-9 ? 3.0 : 1.0) << time;
   }
   EXPECT_EQ(start_up.multiplier(11.0, 20.0, 0.0), 1.0);
-  EXPECT_EQ(start_up.multiplier(12.0, 20.0, 1.0), 3.0) << "another start-up";
+  EXPECT_EQ(start_up.multiplier(12.0, 21.0, 1.0), 3.0) << "another start-up";
+}
+
+// A keyphasor at 50 rad/s: pulses a turn apart, a standard deviation of 0.02 rad/s of the speed
+// between two of them.
+TEST(StartUp, NoiseOfAMeasuredSpeedIsNone) {
+  StartUp start_up(multiplied());
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  double before = 50.0;
+  for (int i = 0; i < 10'000; ++i) {
+    const double speed = 50.0 + noise(random);
+    const double acceleration = (speed - before) / 0.126;
+    EXPECT_EQ(start_up.multiplier(0.126 * i, speed, i == 0 ? 0.0 : 5.0 * acceleration), 1.0) << i;
+    before = speed;
+  }
+}
+
+TEST(StartUp, ASlowOneAtAnyRateOfMessagesIsOne) {
+  for (const double period : {0.001, 0.1, 1.0}) {
+    for (const double turns : {1.0, -1.0}) {
+      StartUp start_up(multiplied());
+      start_up.multiplier(0.0, 10.0 * turns, 0.0);
+      double multiplier = 1.0;
+      for (double time = period; time < 3.5; time += period) {
+        multiplier = start_up.multiplier(time, (10.0 + 0.6 * time) * turns, 0.6 * turns);
+      }
+      EXPECT_EQ(multiplier, 3.0) << period << " " << turns;
+    }
+  }
 }
 
 }  // namespace start_up_test
