@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "messages/alert_types.h"
-#include "monitoring/speed_text.h"
 
 namespace whirl_twin {
 AmplitudeAlarm::AmplitudeAlarm(std::string system, const AlarmSettings& settings)

@@ -1,7 +1,11 @@
 #include "monitoring/condition_alarm.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "algebra/constants.h"
 
 namespace whirl_twin {
 namespace {
@@ -15,6 +19,10 @@ double elapsed(std::optional<double>& since, double time) {
 }
 
 }  // namespace
+
+std::string shaftSpeedText(double speed) {
+  return fmt::format("{:.1f} rad/s ({:.0f} rpm)", speed, speed * 30.0 / kPi);
+}
 
 ConditionAlarm::Change ConditionAlarm::update(double time, AlarmCondition condition) {
   if (!std::isfinite(time)) {

@@ -12,11 +12,16 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "messages/alert.h"
 #include "monitoring/alarm_settings.h"
 
 namespace whirl_twin {
+
+/// The speed of a shaft [rad/s] in the text of an alert: rad/s, as in every message, and rpm for
+/// operators.
+std::string shaftSpeedText(double speed);
 
 /// What the quantity watched says at one instant.
 enum class AlarmCondition { kClear, kHold, kWarning, kDanger };

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "messages/alert_types.h"
-#include "monitoring/speed_text.h"
 
 namespace whirl_twin {
 namespace {

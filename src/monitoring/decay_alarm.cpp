@@ -10,7 +10,6 @@
 #include "analysis/routh.h"
 #include "control/shaft_angle.h"
 #include "messages/alert_types.h"
-#include "monitoring/speed_text.h"
 
 namespace whirl_twin {
 

@@ -7,7 +7,6 @@
 
 #include "algebra/constants.h"
 #include "messages/alert_types.h"
-#include "monitoring/speed_text.h"
 
 namespace whirl_twin {
 

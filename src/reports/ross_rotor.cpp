@@ -245,9 +245,8 @@ class RossReader {
     for (const RossEntry& entry : file_.entries()) {
       if (entry.isDisc()) {
         if (!entry.is("DiskElement")) {
-          leaveOut(fmt::format(
-              "{}: properties of a {} other than mass and inertias, which are used as a disc",
-              entry.key, entry.kind));
+          leaveOut(fmt::format("{}: properties of a {} besides mass and inertias of a disc",
+                               entry.key, entry.kind));
         }
         drawing_.discs.push_back(
             {{"node", std::to_string(file_.node(entry))},

@@ -382,7 +382,7 @@ TEST(Import, AGearOfRossIsADiscToo) {
                          shaftWithDisc("2.3.0", bearings("kxx = 1.0e6\ncxx = 100.0\n") + gear))});
   ASSERT_EQ(imported.status, 0) << imported.err;
   EXPECT_NE(
-      imported.err.find("GearElement_0: properties of a GearElement other than mass and inertias"),
+      imported.err.find("GearElement_0: properties of a GearElement besides mass and inertias"),
       std::string::npos)
       << imported.err;
   const std::string scene = folder.write("gear.yaml", imported.out);
