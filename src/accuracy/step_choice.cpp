@@ -13,7 +13,7 @@
 #include "realtime/denormals.h"
 #include "scene/built_scene.h"
 #include "scene/control_parts.h"
-#include "scene/drive_profile.h"
+#include "scene/drive_reader.h"
 #include "scene/scene_error.h"
 #include "twin/observer.h"
 #include "twin/twin.h"

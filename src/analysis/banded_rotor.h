@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "mechanics/banded_linearization.h"
 #include "mechanics/linear_rotor.h"
+#include "mechanics/linearization.h"
 #include "mechanics/rotors/rotor_assembly.h"
 
 namespace whirl_twin {

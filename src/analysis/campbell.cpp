@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "algebra/constants.h"
-#include "analysis/bracketed_root.h"
 #include "analysis/crossing_search.h"
+#include "analysis/polynomial_roots.h"
 
 namespace whirl_twin {
 

@@ -8,10 +8,10 @@
 
 #include "algebra/constants.h"
 #include "analysis/banded_rotor.h"
-#include "analysis/bracketed_root.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/equilibrium_branch.h"
 #include "analysis/orbit.h"
+#include "analysis/polynomial_roots.h"
 #include "analysis/synchronous_poles.h"
 #include "analysis/synchronous_response.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "analysis/bracketed_root.h"
 #include "analysis/mode_tracking.h"
+#include "analysis/polynomial_roots.h"
 
 namespace whirl_twin {
 

@@ -8,7 +8,7 @@
 #include "algebra/constants.h"
 #include "algebra/dense.h"
 #include "analysis/cyclic_coordinates.h"
-#include "analysis/mass_matrix.h"
+#include "analysis/natural_modes.h"
 #include "analysis/stability_margins.h"
 #include "integration/dormand_prince_8.h"
 

@@ -15,7 +15,7 @@
 
 #include <optional>
 
-#include "mechanics/banded_linearization.h"
+#include "mechanics/linearization.h"
 
 namespace whirl_twin {
 

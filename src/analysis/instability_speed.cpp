@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "analysis/banded_rotor.h"
-#include "analysis/bracketed_root.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/equilibria.h"
 #include "analysis/equilibrium_branch.h"
 #include "analysis/growth_radius.h"
+#include "analysis/linearized_motion.h"
 #include "analysis/lowest_eigenvalues.h"
-#include "analysis/small_motion.h"
+#include "analysis/polynomial_roots.h"
 #include "analysis/stability.h"
 
 namespace whirl_twin {

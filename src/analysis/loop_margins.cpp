@@ -12,7 +12,7 @@
 
 #include "algebra/constants.h"
 #include "algebra/dense.h"
-#include "analysis/bracketed_root.h"
+#include "analysis/polynomial_roots.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "analysis/cyclic_coordinates.h"
-#include "analysis/small_motion.h"
+#include "analysis/linearized_motion.h"
 
 namespace whirl_twin {
 

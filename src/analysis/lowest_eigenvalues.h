@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/lowest_roots.h"
-#include "mechanics/banded_linearization.h"
+#include "mechanics/linearization.h"
 
 namespace whirl_twin {
 

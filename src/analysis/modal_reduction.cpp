@@ -12,7 +12,7 @@
 #include "algebra/constants.h"
 #include "algebra/dense.h"
 #include "algebra/sparse_solver.h"
-#include "analysis/eigenvalue_refinement.h"
+#include "analysis/refined_eigenvalues.h"
 
 namespace whirl_twin {
 

@@ -7,8 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/real_root_count.h"
-#include "analysis/root_location.h"
+#include "analysis/polynomial_roots.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {

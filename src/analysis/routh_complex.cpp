@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "analysis/real_root_count.h"
-#include "analysis/root_location.h"
+#include "analysis/polynomial_roots.h"
 #include "analysis/routh.h"
 
 namespace whirl_twin {

@@ -10,9 +10,31 @@
 #include <string>
 #include <vector>
 
+#include "analysis/exact_number.h"
+#include "analysis/routh.h"
 #include "analysis/symbolic_polynomial.h"
 
 namespace whirl_twin {
+
+// Routh's conditions in the form of the lecture notes, for s^n + A_(n-1) s^(n-1) + ... + A_0: every
+// motion dies out if and only if all A_i > 0 and
+//   cubic    A1 A2 > A0
+//   quartic  A1 A2 A3 > A1^2 + A3^2 A0                    (the notes misprint A2^3 A0)
+//   quintic  A3 A4 > A2,    (A3 A4 - A2)(A1 A2 - A0 A3) > (A1 A4 - A0)^2
+//   sextic   A3 b1 > A5 b2, (A3 b1 - A5 b2)(A1 b2 - A3 b3) > (A1 b1 - A5 b3)^2
+//            with b1 = A4 A5 - A3, b2 = A2 A5 - A1, b3 = A0 A5.
+// The notes leave the last two to Routh's work ("two other requirements"): these are the Hurwitz
+// determinants D2, D4 and D3, A5 D5 written out (Lienard and Chipart 1914).
+
+constexpr int kLeastConditionDegree = 1;
+constexpr int kMostConditionDegree = 6;
+
+/// The conditions of a real polynomial of degree 1 to 6, highest power first, leading zeros
+/// dropped: A0 > 0 ... first, then the others. It is asymptotically stable if and only if all hold,
+/// as routh() says. Throws Refusal for another degree or a coefficient that is not
+/// finite.
+std::vector<RouthCondition> routhConditions(const std::vector<Rational>& coefficients);
+std::vector<RouthCondition> routhConditions(const std::vector<double>& coefficients);
 
 struct RouthTableRow {
   int power = 0;  ///< of s, that its first entry belongs to

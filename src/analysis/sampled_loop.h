@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "control/discrete_state_space.h"
+#include "control/transfer_function.h"
 
 namespace whirl_twin {
 

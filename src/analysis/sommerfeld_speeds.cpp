@@ -4,7 +4,7 @@
 #include <cmath>
 #include <complex>
 
-#include "analysis/bracketed_root.h"
+#include "analysis/polynomial_roots.h"
 #include "analysis/stability.h"
 #include "analysis/synchronous_poles.h"
 #include "analysis/synchronous_response.h"

@@ -5,7 +5,7 @@
 #include <complex>
 #include <vector>
 
-#include "analysis/routh_result.h"
+#include "analysis/routh.h"
 #include "mechanics/dynamics.h"
 
 namespace whirl_twin {

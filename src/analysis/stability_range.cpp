@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "analysis/polynomial_roots.h"
-#include "analysis/real_root_count.h"
 #include "analysis/routh.h"
 #include "messages/refusal.h"
 

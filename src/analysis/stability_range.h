@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/routh_result.h"
+#include "analysis/routh.h"
 #include "analysis/symbolic_polynomial.h"
 
 namespace whirl_twin {

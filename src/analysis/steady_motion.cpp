@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "algebra/dense.h"
-#include "analysis/mass_matrix.h"
-#include "analysis/rest_search.h"
+#include "analysis/equilibria.h"
+#include "analysis/natural_modes.h"
 
 namespace whirl_twin {
 

@@ -10,7 +10,6 @@
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/equilibria.h"
 #include "analysis/lowest_eigenvalues.h"
-#include "analysis/rest_search.h"
 #include "analysis/stability.h"
 #include "analysis/stability_margins.h"
 #include "mechanics/locally_forced_rotor.h"

@@ -3,11 +3,38 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "analysis/steady_motion.h"
 #include "mechanics/dynamics.h"
 
 namespace whirl_twin {
+
+// Up to which amplitude a logarithmic decrement holds. It is that of small motions: of a nonlinear
+// system it changes as the motion becomes wider (a pendulum swings more slowly, a rotor meets its
+// stator, a film stiffens).
+//
+// Of a motion of finite amplitude it is that of the equivalent linear system (describing function,
+// Krylov & Bogoliubov 1937): the system is moved through its least damped mode, and of what its
+// equations answer that part counts which has the mode's own shape and frequency. It is exact for a
+// linear system, and good where a motion stays near that shape.
+
+/// A decrement belongs to an amplitude where it is no further from that of small motions.
+constexpr double kSameDecrement = 0.1;  // [-], of it
+
+struct DecrementAmplitude {
+  double amplitude = 0.0;  ///< [rad] or [m]; infinite: as far as was looked, half a turn or
+                           ///< naturalLength()
+  std::string coordinate;  ///< of it, that which moves most; of a rotor "whirl": its radius at the
+                           ///< first station
+};
+
+/// Of the least damped vibration about a steady motion at a shaft speed [rad/s]. Nothing where
+/// nothing vibrates, or two modes are one (their shapes then tell nothing).
+std::optional<DecrementAmplitude> decrementAmplitude(const Dynamics& dynamics,
+                                                     const SteadyMotion& motion, double speed);
 
 /// Does the system have conditions at all?
 bool hasConditions(const Dynamics& dynamics);

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "analysis/orbit.h"
-#include "mechanics/banded_linearization.h"
 #include "mechanics/linear_rotor.h"
+#include "mechanics/linearization.h"
 
 namespace whirl_twin {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "control/counter_noise.h"
+#include "control/sensor.h"
 #include "control/shaft_angle.h"
 
 namespace whirl_twin {

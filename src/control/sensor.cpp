@@ -1,5 +1,7 @@
 #include "control/sensor.h"
 
+#include <Random123/philox.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +9,55 @@
 #include "algebra/constants.h"
 
 namespace whirl_twin {
+
+SampleInstants::SampleInstants(double rate) : rate_(rate), period_(std::llround(1.0e9 / rate)) {
+  if (static_cast<double>(period_) * rate != 1.0e9) {
+    period_ = 0;
+  }
+}
+
+std::int64_t SampleInstants::at(std::int64_t k) const noexcept {
+  // A long double has the digits of an int64.
+  return period_ > 0 ? k * period_ : std::llroundl(static_cast<long double>(k) * 1.0e9L / rate_);
+}
+
+std::int64_t SampleInstants::firstFrom(std::int64_t time) const noexcept {
+  auto k =
+      static_cast<std::int64_t>(std::floor(static_cast<long double>(time) * 1.0e-9L * rate_)) - 1;
+  while (at(k) < time) {
+    ++k;
+  }
+  return k;
+}
+
+namespace {
+
+constexpr double kPerWord = 1.0 / 4294967296.0;  // 2^-32
+
+/// The middle of the interval that a word stands for: never 0, never 1.
+double uniform(std::uint32_t word) noexcept {
+  return (static_cast<double>(word) + 0.5) * kPerWord;
+}
+
+r123::Philox4x32::ctr_type wordsOf(std::uint32_t seed, std::uint32_t channel,
+                                   std::int64_t k) noexcept {
+  const auto count = static_cast<std::uint64_t>(k);
+  const r123::Philox4x32::ctr_type counter{
+      {static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(count >> 32U), 0U, 0U}};
+  const r123::Philox4x32::key_type key{{seed, channel}};
+  return r123::Philox4x32{}(counter, key);
+}
+
+}  // namespace
+
+double CounterNoise::even(std::int64_t k) const noexcept {
+  return 2.0 * uniform(wordsOf(seed_, channel_, k)[2]) - 1.0;
+}
+
+double CounterNoise::normal(std::int64_t k) const noexcept {
+  const r123::Philox4x32::ctr_type words = wordsOf(seed_, channel_, k);
+  return std::sqrt(-2.0 * std::log(uniform(words[0]))) * std::cos(kTwoPi * uniform(words[1]));
+}
 
 namespace {
 

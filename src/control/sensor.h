@@ -10,9 +10,47 @@
 
 #include <cstdint>
 
-#include "control/counter_noise.h"
-
 namespace whirl_twin {
+
+// When something is sampled that has a rate of its own: sample k at k / rate after simulated time
+// 0, to the nearest nanosecond, whatever the step of the twin.
+
+class SampleInstants {
+ public:
+  explicit SampleInstants(double rate);  ///< [Hz], > 0
+
+  /// The nanoseconds from one sample to the next; 0 where that is not a whole number.
+  std::int64_t period() const { return period_; }
+
+  // Real-time safe.
+
+  std::int64_t at(std::int64_t k) const noexcept;            ///< [ns]
+  std::int64_t firstFrom(std::int64_t time) const noexcept;  ///< sample, not before `time` [ns]
+
+ private:
+  double rate_;
+  std::int64_t period_;
+};
+
+// Noise that is a function of a counter: sample k of a channel of a seed is the same number on
+// every machine, in whatever order and how often it is asked for, so that a reset or a replay gives
+// the same bytes. Philox 4x32-10 (Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as easy as
+// 1, 2, 3", SC11), by Random123; Box & Muller's transformation of two of its words.
+
+class CounterNoise {
+ public:
+  CounterNoise(std::uint32_t seed, std::uint32_t channel) : seed_(seed), channel_(channel) {}
+
+  /// Number k of a standard normal distribution: at most 6.7 standard deviations out, by the
+  /// resolution of 32 bits. Real-time safe.
+  double normal(std::int64_t k) const noexcept;
+  /// Number k of an even distribution from -1 to 1, neither of them reached. Real-time safe.
+  double even(std::int64_t k) const noexcept;
+
+ private:
+  std::uint32_t seed_;
+  std::uint32_t channel_;
+};
 
 /// How a sensor departs from what it measures, in the unit of the signal; 0: it does not.
 struct SensorSettings {

@@ -1,9 +1,22 @@
 // Transfer functions in z as states in samples.
 #pragma once
 
-#include "control/discrete_state_space.h"
+#include <Eigen/Core>
 
 namespace whirl_twin {
+
+// A linear system in samples.
+
+/// x(k+1) = a x(k) + b y(k), u(k) = c x(k) + d y(k): of a controller, y what it measures and u its
+/// outputs. Without a state a is 0 x 0.
+struct DiscreteStateSpace {
+  Eigen::MatrixXd a;  ///< [n x n]
+  Eigen::MatrixXd b;  ///< [n x measured]
+  Eigen::MatrixXd c;  ///< [outputs x n]
+  Eigen::MatrixXd d;  ///< [outputs x measured]
+
+  Eigen::Index states() const { return a.rows(); }
+};
 
 /// (b0 z^m + ... + bm) / (a0 z^n + ... + an) of one signal, coefficients of falling powers, m <= n,
 /// a0 not 0: n states, in observer form. Throws std::logic_error for others.

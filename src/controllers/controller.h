@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "control/discrete_state_space.h"
 #include "control/shaft_angle.h"
+#include "control/transfer_function.h"
 #include "messages/controller_state.h"
 #include "realtime/state_image.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "algebra/constants.h"
-#include "display/scale_bar.h"
+#include "display/scales.h"
 #include "monitoring/stability_alarm.h"
 
 namespace whirl_twin {

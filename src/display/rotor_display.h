@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "display/orbit_trail.h"
+#include "display/scales.h"
 #include "display/system_display.h"
-#include "display/whirl_scale.h"
 #include "whirl_twin/WhirlState.h"
 
 namespace whirl_twin {

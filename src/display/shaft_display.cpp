@@ -10,7 +10,7 @@
 #include "display/layout.h"
 #include "display/rotor_parts.h"
 #include "display/sketch_drawing.h"
-#include "scene/station_names.h"
+#include "scene/signal_names.h"
 
 namespace whirl_twin {
 namespace {

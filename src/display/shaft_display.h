@@ -14,8 +14,8 @@
 
 #include "analysis/whole_shape.h"
 #include "display/orbit_trail.h"
+#include "display/scales.h"
 #include "display/system_display.h"
-#include "display/whirl_scale.h"
 #include "mechanics/dynamics.h"
 #include "whirl_twin/WhirlState.h"
 

@@ -7,12 +7,19 @@
 
 #include "mechanics/dynamics.h"
 #include "whirl_twin/Alert.h"
+#include "whirl_twin/FollowState.h"
 #include "whirl_twin/OrderState.h"
 #include "whirl_twin/PendulumState.h"
 #include "whirl_twin/StabilityMargin.h"
 #include "whirl_twin/WhirlState.h"
 
 namespace whirl_twin {
+
+// What a display says of a system that follows its machine.
+
+/// A line for each estimated parameter, "coulomb1 0.00029 +- 6e-05 N m"; then each channel that is
+/// not used, and how far the residuals are from what is expected.
+std::vector<std::string> followLines(const FollowState& follow);
 
 /// [rad] to degrees in (-180, 180].
 double wrappedDegrees(double angle);

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "messages/monitor_pulse.h"
+#include "messages/monitor_status.h"
 #include "monitoring/whirl_vibration.h"
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/ControllerMargins.h"

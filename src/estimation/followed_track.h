@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "estimation/bearing_forces.h"
-#include "estimation/drift_watch.h"
-#include "estimation/residual_watch.h"
+#include "estimation/innovation_tests.h"
 #include "estimation/robust_covariance.h"
 #include "estimation/starting_filter.h"
 #include "messages/follow_state.h"

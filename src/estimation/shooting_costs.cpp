@@ -3,9 +3,137 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
+
+namespace {
+
+constexpr double kReach = 0.025;           // s, to either side
+constexpr std::size_t kFewestToASide = 4;  // rows
+constexpr std::size_t kMostPoints = 3000;  // of a study
+
+/// Value, slope and second derivative at the middle row of a quadratic (least squares).
+Eigen::Vector3d quadratic(const Eigen::MatrixX3d& powers, double width, const double* values) {
+  const Eigen::Map<const Eigen::VectorXd> y(values, powers.rows());
+  const Eigen::Vector3d c = PivotedQr(powers).solve(y);
+  return {c[0], c[1] / width, 2.0 * c[2] / (width * width)};
+}
+
+bool measuresAll(const StudyRun& run, std::size_t dof) {
+  for (std::size_t i = 0; i < dof; ++i) {
+    if (std::none_of(run.measured.begin(), run.measured.end(),
+                     [&](const MeasuredChannel& c) { return c.state == i; })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+EquationError::EquationError(const FitStudy& study, const CandidateMaker& maker)
+    : study_(study), maker_(maker) {
+  const std::size_t dof = study.spec().q.size();
+  std::size_t rows = 0;
+  for (const StudyRun& run : study.runs) {
+    rows += run.train && measuresAll(run, dof) ? run.data.time.size() : 0;
+  }
+  const std::size_t stride = std::max<std::size_t>(1, rows / kMostPoints);
+  std::vector<std::vector<double>> sizes(dof);
+  for (std::size_t r = 0; r < study.runs.size(); ++r) {
+    const StudyRun& run = study.runs[r];
+    const std::vector<double>& time = run.data.time;
+    if (!run.train || !measuresAll(run, dof)) {
+      continue;
+    }
+    for (std::size_t k = kFewestToASide; k + kFewestToASide < time.size(); k += stride) {
+      std::size_t from = k - kFewestToASide, to = k + kFewestToASide;
+      while (from > 0 && time[k] - time[from - 1] <= kReach) {
+        --from;
+      }
+      while (to + 1 < time.size() && time[to + 1] - time[k] <= kReach) {
+        ++to;
+      }
+      const double width = std::max(time[k] - time[from], time[to] - time[k]);
+      Eigen::MatrixX3d powers(static_cast<Eigen::Index>(to - from + 1), 3);
+      for (std::size_t i = from; i <= to; ++i) {
+        const double x = (time[i] - time[k]) / width;
+        powers.row(static_cast<Eigen::Index>(i - from)) << 1.0, x, x * x;
+      }
+      Point point{r, time[k], Eigen::MatrixX3d(static_cast<Eigen::Index>(run.measured.size()), 3),
+                  Eigen::VectorXd(static_cast<Eigen::Index>(run.inputs.size()))};
+      for (std::size_t c = 0; c < run.measured.size(); ++c) {
+        const Eigen::Vector3d fit =
+            quadratic(powers, width, run.data.column(run.measured[c].column).data() + from);
+        point.measured.row(static_cast<Eigen::Index>(c)) = fit;
+        if (run.measured[c].state < dof) {
+          sizes[run.measured[c].state].push_back(std::fabs(fit[2]));
+        }
+      }
+      for (std::size_t i = 0; i < run.inputs.size(); ++i) {
+        point.inputs[static_cast<Eigen::Index>(i)] =
+            quadratic(powers, width, run.data.column(run.inputs[i].column).data() + from)[0];
+      }
+      points_.push_back(std::move(point));
+    }
+  }
+  usual_ = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(dof));
+  for (std::size_t i = 0; i < dof && !points_.empty(); ++i) {
+    const auto middle = sizes[i].begin() + static_cast<std::ptrdiff_t>(sizes[i].size() / 2);
+    std::nth_element(sizes[i].begin(), middle, sizes[i].end());
+    usual_[static_cast<Eigen::Index>(i)] = *middle > 0.0 ? *middle : 1.0;
+  }
+}
+
+Eigen::Index EquationError::size() const {
+  return static_cast<Eigen::Index>(points_.size()) * usual_.size();
+}
+
+Eigen::VectorXd EquationError::residuals(const Candidate& candidate) const {
+  const Dynamics& dynamics = *candidate.system->dynamics;
+  const Eigen::Index dof = usual_.size();
+  const std::vector<InputInfo> infos = dynamics.inputs();
+  Drive drive = maker_.scene().driveOf(*candidate.system);
+  Eigen::VectorXd all(size());
+  Eigen::Index at = 0;
+  for (const Point& point : points_) {
+    const StudyRun& run = candidate.runs[point.run];
+    Eigen::VectorXd q(dof), v(dof), a(dof);
+    for (std::size_t c = 0; c < run.measured.size(); ++c) {
+      const MeasuredChannel& channel = run.measured[c];
+      const auto i = static_cast<Eigen::Index>(channel.state);
+      if (i < dof) {
+        const auto row = point.measured.row(static_cast<Eigen::Index>(c)) / channel.scale.value;
+        q[i] = row[0] - channel.offset.value / channel.scale.value;
+        v[i] = row[1];
+        a[i] = row[2];
+      }
+    }
+    drive.begin(std::llround(point.time * 1.0e9));
+    const ShaftMotion shaft = drive.at(0.0);
+    Moment<double> moment{};
+    moment.time = point.time;
+    moment.angle = shaft.angle;
+    moment.speed = shaft.speed;
+    moment.acceleration = shaft.acceleration;
+    Eigen::VectorXd predicted = dynamics.acceleration(q, v, moment);
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(dof);
+    for (std::size_t i = 0; i < run.inputs.size(); ++i) {
+      const MeasuredInput& input = run.inputs[i];
+      force +=
+          (input.scale.value * point.inputs[static_cast<Eigen::Index>(i)] + input.offset.value) *
+          infos[input.place].direction;
+    }
+    if (!force.isZero(0.0)) {
+      predicted += Ldlt(dynamics.massMatrix(q, v, moment)).solve(force);
+    }
+    all.segment(at, dof) = (a - predicted).cwiseQuotient(usual_);
+    at += dof;
+  }
+  return all;
+}
 
 namespace {
 

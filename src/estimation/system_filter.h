@@ -26,11 +26,10 @@
 #include "control/inputs.h"
 #include "control/keyphasor.h"
 #include "estimation/follow_settings.h"
-#include "estimation/followed_input.h"
 #include "estimation/followed_model.h"
+#include "estimation/followed_shaft.h"
+#include "estimation/followed_sources.h"
 #include "estimation/kalman_filter.h"
-#include "estimation/motion_step.h"
-#include "estimation/shaft_path.h"
 #include "scene/built_scene.h"
 #include "scene/sensor_spec.h"
 

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "control/drive.h"
-#include "integration/acceleration_jacobian.h"
 #include "integration/driven_equation.h"
 #include "integration/input_force.h"
 #include "integration/motion_state.h"
+#include "integration/stage_solver.h"
 #include "mechanics/dry_friction.h"
 #include "mechanics/dynamics.h"
 

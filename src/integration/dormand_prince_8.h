@@ -8,8 +8,8 @@
 // system but the energy audit and, in the end, a state that is not finite.
 #pragma once
 
-#include "integration/lanes.h"
 #include "integration/motion_state.h"
+#include "integration/simd_vector.h"
 
 namespace whirl_twin {
 

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "control/drive.h"
-#include "integration/acceleration_jacobian.h"
+#include "integration/stage_solver.h"
 #include "mechanics/lagrangian.h"
 #include "mechanics/lagrangian_dynamics.h"
 

@@ -26,7 +26,7 @@
 #include "control/drive.h"
 #include "control/inputs.h"
 #include "integration/acting_inputs.h"
-#include "integration/linear_step.h"
+#include "integration/linear_stepper.h"
 #include "integration/motion_state.h"
 #include "integration/packed_matrix.h"
 #include "integration/rotor_step.h"

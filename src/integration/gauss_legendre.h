@@ -16,8 +16,8 @@
 #include <cmath>
 
 #include "integration/called_equation.h"
-#include "integration/lanes.h"
 #include "integration/motion_state.h"
+#include "integration/simd_vector.h"
 #include "integration/stage_solver.h"
 
 namespace whirl_twin {

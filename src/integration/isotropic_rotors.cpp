@@ -6,7 +6,7 @@
 #include <complex>
 
 #include "integration/matrix_exponential.h"
-#include "integration/vector_widths.h"
+#include "integration/simd_vector.h"
 
 namespace whirl_twin {
 

@@ -22,9 +22,8 @@
 #include <optional>
 
 #include "control/drive.h"
-#include "integration/four_doubles.h"
-#include "integration/lateral_motion.h"
 #include "integration/lateral_rotor.h"
+#include "integration/simd_vector.h"
 #include "mechanics/force_inline.h"
 
 namespace whirl_twin {

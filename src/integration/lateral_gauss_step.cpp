@@ -14,15 +14,15 @@ namespace {
 
 /// So many nodes at a time.
 template <int lanes>
-struct Vector {
+struct StageVector {
   typedef double Doubles __attribute__((vector_size(8 * lanes), may_alias));
   typedef std::int64_t Bits __attribute__((vector_size(8 * lanes), may_alias));
 };
 
 /// Of angles up to 1e5 rad, to an ulp or so. The series are those of Sun's fdlibm.
-template <int lanes, class Doubles = typename Vector<lanes>::Doubles>
+template <int lanes, class Doubles = typename StageVector<lanes>::Doubles>
 WHIRL_TWIN_INLINE void sineCosine(const Doubles& angle, Doubles& sine, Doubles& cosine) {
-  using Bits = typename Vector<lanes>::Bits;
+  using Bits = typename StageVector<lanes>::Bits;
   constexpr double kQuarters = 0.63661977236758134308;
   constexpr double kPart1 = 1.57079632673412561417e+00;  // pi/2 in pieces of 33, 33 and 53 bits
   constexpr double kPart2 = 6.07710050630396597660e-11;
@@ -54,7 +54,7 @@ WHIRL_TWIN_INLINE void sineCosine(const Doubles& angle, Doubles& sine, Doubles& 
 }
 
 /// Keeps e^(i theta) at nodes, with a turn [rad] for each of them to its next place.
-template <int lanes, class Doubles = typename Vector<lanes>::Doubles>
+template <int lanes, class Doubles = typename StageVector<lanes>::Doubles>
 WHIRL_TWIN_INLINE void begin(NodePhasors& p, int i, const Doubles& turn, const Doubles& sine,
                              const Doubles& cosine) {
   Doubles turn_sine, turn_cosine;
@@ -66,7 +66,7 @@ WHIRL_TWIN_INLINE void begin(NodePhasors& p, int i, const Doubles& turn, const D
 }
 
 /// Turns them on by a step.
-template <int lanes, class Doubles = typename Vector<lanes>::Doubles>
+template <int lanes, class Doubles = typename StageVector<lanes>::Doubles>
 WHIRL_TWIN_INLINE void goOn(NodePhasors& p, int i, Doubles& sine, Doubles& cosine) {
   Doubles& s = reinterpret_cast<Doubles*>(p.sine.data())[i];
   Doubles& c = reinterpret_cast<Doubles*>(p.cosine.data())[i];
@@ -85,7 +85,7 @@ WHIRL_TWIN_INLINE void goOn(NodePhasors& p, int i, Doubles& sine, Doubles& cosin
 /// A matrix of two axes times a vector of two, column by column; the sums stay in registers.
 template <int lanes, int vectors>
 struct Sums {
-  using Doubles = typename Vector<lanes>::Doubles;
+  using Doubles = typename StageVector<lanes>::Doubles;
 
   const double* of_x;
   const double* of_y;
@@ -115,7 +115,7 @@ struct Sums {
 
 template <int lanes, int count>
 WHIRL_TWIN_INLINE void take(const LateralGaussStep& step, LateralGaussResult& result) {
-  using Doubles = typename Vector<lanes>::Doubles;
+  using Doubles = typename StageVector<lanes>::Doubles;
   constexpr int kVectors = count / lanes;
   const LateralRotor& r = step.rotor;
   const ShaftMotion& shaft = step.shaft;
@@ -196,7 +196,7 @@ WHIRL_TWIN_INLINE void interleave(const Doubles& x, const Doubles& y, Doubles* b
 
 template <int lanes, int count>
 WHIRL_TWIN_INLINE StepStatus goOnWith(const LateralGaussGoOn& step, LateralMotion& motion) {
-  using Doubles = typename Vector<lanes>::Doubles;
+  using Doubles = typename StageVector<lanes>::Doubles;
   constexpr int kVectors = count / lanes;
   constexpr int kRows = (count + 4) / lanes;
   const LateralRotor& r = step.rotor;

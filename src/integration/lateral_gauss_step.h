@@ -15,7 +15,6 @@
 #include <cstddef>
 
 #include "control/drive.h"
-#include "integration/lateral_motion.h"
 #include "integration/lateral_rotor.h"
 
 namespace whirl_twin {

@@ -9,7 +9,6 @@
 
 #include "integration/excitation.h"
 #include "integration/lateral_exact_step.h"
-#include "integration/lateral_motion.h"
 #include "integration/lateral_rotor.h"
 #include "integration/lateral_run_up.h"
 #include "integration/stepper.h"

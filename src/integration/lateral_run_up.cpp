@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integration/free_oscillation.h"
 #include "mechanics/sine_cosine.h"
 
 namespace whirl_twin {

@@ -8,13 +8,83 @@
 #include <vector>
 
 #include "integration/acting_inputs.h"
-#include "integration/linear_step.h"
+#include "integration/motion_state.h"
+#include "integration/packed_matrix.h"
 #include "integration/step_error_sum.h"
 #include "integration/step_parts.h"
 #include "integration/stepper.h"
+#include "mechanics/force_inline.h"
 #include "mechanics/linear_dynamics.h"
+#include "realtime/state_image.h"
 
 namespace whirl_twin {
+
+// Steps of a linear system of any number of coordinates, M q'' + (C+G) q' + (K+N) q = f(t), at a
+// constant step h.
+//
+// Every method here is itself linear: with y = (q, v, cos w_k t, sin w_k t) for every frequency w_k
+// of the forces, a step is
+//   (dq, dv) = B y,      work done by and lost from the system = y^T W y,
+// and B and W, made once, are all that tells one method from another. The methods are those of
+// semi_implicit_euler.h, velocity_verlet.h, runge_kutta_4.h, dormand_prince_8.h and
+// gauss_legendre.h (implicit_midpoint, gauss_legendre_4 and gauss_legendre_6), equal to them but
+// for rounding; the work is the method's own quadrature of dh/dt, which for the last three is
+// exactly what h = T + V gains. `exponential` has no truncation error: B = e^(A h) - I and W =
+// integral of e^(A't) S e^(At), y' = A y, dh/dt = y^T S y; so it is exact for any step, at undamped
+// resonance, with rigid-body modes and with unstable ones. The phasors come from the time at every
+// step anew, so that no phase is lost over any number of steps.
+//
+// Inputs are columns, too (acting_inputs.h). A step inside which one of them has a corner is gone
+// through in parts of 2^k nanoseconds, by their exact maps whatever the method: any instant is a
+// sum of such parts, and only tables have it prepared.
+
+/// The state of n coordinates, each number as a compensated sum (motion_state.h).
+struct LinearMotion {
+  explicit LinearMotion(Eigen::Index n);
+
+  Eigen::Index dof() const { return state.size() / 2; }
+  auto q() const { return state.head(dof()); }  ///< [rad] or [m]
+  auto v() const { return state.tail(dof()); }  ///< their rates
+  auto q() { return state.head(dof()); }
+  auto v() { return state.tail(dof()); }
+
+  // Real-time safe.
+  void set(const double* position, const double* rate) noexcept;  ///< n numbers each
+  void advance(const double* increment, double energy) noexcept;  ///< 2 n, those of q first
+  void exchange(StateImage& image) noexcept { image(state, low, work); }
+
+  Eigen::VectorXd state;  ///< q and below it v: one loop goes through both
+  Eigen::VectorXd low;    ///< of it
+  CompensatedSum work;    ///< [J], integral of dh/dt
+};
+
+class LinearStep {
+ public:
+  /// Prepares steps of h [s]; for n coordinates that takes a time of order n^3. Throws
+  /// std::logic_error for a method that is not among linearMethodNames().
+  LinearStep(const LinearModel& model, const std::string& method, double h,
+             const ActingInputs& inputs = {});
+
+  /// Advances by h from time [s], with inputs that stand `offset` [s] before it and have no corner
+  /// in the step. Real-time safe. A state beyond the range of doubles comes out infinite or NaN.
+  void advance(double time, LinearMotion& motion, double offset = 0.0) noexcept;
+  /// Advances from one instant to another, both in [ns] after the instant at which the inputs
+  /// stand, which is `time` [s], across any corners of theirs. Real-time safe; they must be tables.
+  void advanceInParts(double time, std::int64_t from, std::int64_t to,
+                      LinearMotion& motion) noexcept;
+
+ private:
+  WHIRL_TWIN_INLINE void apply(PackedMatrix& map, double time, double offset, std::int64_t piece,
+                               LinearMotion& motion) noexcept;
+
+  Eigen::Index n_;
+  ActingInputs inputs_;
+  std::vector<double> frequencies_;  ///< [rad/s], of the phasors
+  PackedMatrix map_;                 ///< B and W
+  std::vector<PackedMatrix> parts_;  ///< of 1, 2, 4 ... ns
+  Eigen::VectorXd y_;                ///< q, v, the phasors and the inputs
+  Eigen::VectorXd result_;           ///< map_ y
+};
 
 /// Is every number of a motion finite? Real-time safe.
 bool isFinite(const LinearMotion& motion) noexcept;

@@ -6,8 +6,8 @@
 
 #include "integration/dormand_prince_8.h"
 #include "integration/runge_kutta_4.h"
+#include "integration/simd_vector.h"
 #include "integration/sliver.h"
-#include "integration/vector_widths.h"
 
 namespace whirl_twin {
 

@@ -1,6 +1,6 @@
 #include "integration/packed_matrix.h"
 
-#include "integration/vector_widths.h"
+#include "integration/simd_vector.h"
 
 namespace whirl_twin {
 

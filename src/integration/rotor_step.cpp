@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include "integration/shaft_course.h"
+#include "integration/shaft_phasor.h"
 #include "integration/sliver.h"
 
 namespace whirl_twin {

@@ -35,8 +35,7 @@
 
 #include "control/drive.h"
 #include "integration/acting_inputs.h"
-#include "integration/linear_step.h"
-#include "integration/map_over_speed.h"
+#include "integration/linear_stepper.h"
 #include "integration/packed_matrix.h"
 #include "integration/rotor_map.h"
 #include "integration/rotor_work.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <complex>
 
-#include "integration/shaft_course.h"
+#include "integration/shaft_phasor.h"
 
 namespace whirl_twin {
 

@@ -11,8 +11,8 @@
 // is wrong for months of undamped swing. Stable for h |lambda| < 2.83 on the imaginary axis.
 #pragma once
 
-#include "integration/lanes.h"
 #include "integration/motion_state.h"
+#include "integration/simd_vector.h"
 
 namespace whirl_twin {
 

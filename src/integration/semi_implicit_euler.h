@@ -7,8 +7,8 @@
 // Stable for h |lambda| < 2 on an undamped oscillator.
 #pragma once
 
-#include "integration/lanes.h"
 #include "integration/motion_state.h"
+#include "integration/simd_vector.h"
 
 namespace whirl_twin {
 

@@ -17,9 +17,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "integration/linear_step.h"
+#include "integration/linear_stepper.h"
 #include "integration/motion_state.h"
-#include "integration/shaft_course.h"
+#include "integration/shaft_phasor.h"
 #include "mechanics/linear_rotor.h"
 #include "mechanics/spin_coupling.h"
 #include "realtime/state_image.h"

@@ -34,10 +34,9 @@
 
 #include "integration/called_equation.h"
 #include "integration/dormand_prince_8.h"
-#include "integration/lanes.h"
 #include "integration/motion_state.h"
+#include "integration/simd_vector.h"
 #include "integration/stoermer_weights.h"
-#include "integration/sums_of_past.h"
 #include "realtime/state_image.h"
 
 namespace whirl_twin {

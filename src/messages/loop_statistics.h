@@ -128,3 +128,14 @@ struct LoopStatistics {
 };
 
 }  // namespace whirl_twin::state
+
+namespace whirl_twin {
+
+// Which part of the twin to look at when its steps take too long.
+
+/// The part that most long steps were due to, or that takes most of a step where there were none:
+/// "rotor: 3.1 us of a step, at most 1204.7 us; took most of 12 long steps". "" where nothing was
+/// timed.
+std::string slowestPart(const state::LoopStatistics& loop);
+
+}  // namespace whirl_twin

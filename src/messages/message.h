@@ -1,15 +1,17 @@
 // All kinds of messages that leave or enter a twin, one row each.
 #pragma once
 
+#include <cstdint>
+#include <limits>
+#include <string>
 #include <variant>
+#include <vector>
 
-#include "messages/alarm_command.h"
 #include "messages/alert.h"
-#include "messages/controller_exchange.h"
-#include "messages/controller_margins.h"
+#include "messages/commands.h"
 #include "messages/controller_state.h"
+#include "messages/fields.h"
 #include "messages/follow_state.h"
-#include "messages/input_command.h"
 #include "messages/loop_statistics.h"
 #include "messages/measurement.h"
 #include "messages/monitor_status.h"
@@ -17,6 +19,46 @@
 #include "messages/scene_text.h"
 #include "messages/stability_margin.h"
 #include "messages/states.h"
+
+namespace whirl_twin::state {
+
+// What goes to a controller in another process, and what it answers.
+
+struct ControllerMeasurement {
+  static constexpr MessageKind kKind{"sample", "ControllerMeasurement", "controllers/*/measurement",
+                                     MessageKind::kSeries};
+
+  Instant at;  ///< step: the index of the sample
+  std::string controller;
+  std::vector<double> values;  ///< of what it measures
+  std::int64_t run = 0;        ///< of simulated time: another after each reset
+
+  template <class Visit>
+  static void fields(Visit& visit) {
+    visit.sampled(TWIN_FIELD(controller));
+    visit.array(TWIN_FIELD(count), TWIN_FIELD(values), "");
+    visit(TWIN_FIELD(run), "", between(0, std::numeric_limits<std::int64_t>::max()));
+  }
+};
+
+struct ControllerCommand {
+  static constexpr MessageKind kKind{"command", "ControllerCommand", "controllers/*/command",
+                                     MessageKind::kCommand};
+
+  Instant at;  ///< of the sample that it answers
+  std::string controller;
+  std::vector<double> values;  ///< of what it acts on
+  std::int64_t run = 0;        ///< of the sample; 0: not told
+
+  template <class Visit>
+  static void fields(Visit& visit) {
+    visit.sampled(TWIN_FIELD(controller));
+    visit.array(TWIN_FIELD(count), TWIN_FIELD(values), "");
+    visit(TWIN_FIELD(run), "", between(0, std::numeric_limits<std::int64_t>::max()));
+  }
+};
+
+}  // namespace whirl_twin::state
 
 namespace whirl_twin {
 

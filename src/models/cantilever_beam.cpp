@@ -16,7 +16,7 @@
 #include "analysis/cantilever_modes.h"
 #include "analysis/natural_modes.h"
 #include "integration/linear_methods.h"
-#include "models/linear_setup.h"
+#include "models/linear_rotor_setup.h"
 #include "models/models.h"
 
 namespace whirl_twin {

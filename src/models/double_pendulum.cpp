@@ -1,8 +1,6 @@
 #include "mechanics/pendulums/double_pendulum.h"
 
-#include "mechanics/pendulums/dragged_double_pendulum.h"
-#include "mechanics/pendulums/motor_double_pendulum.h"
-#include "mechanics/pendulums/relative_double_pendulum.h"
+#include "mechanics/pendulums/double_pendulum_forms.h"
 #include "models/model_entry.h"
 #include "models/models.h"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "models/local_element_settings.h"
+#include "models/settings.h"
 #include "models/shaft_materials.h"
 #include "models/shaft_supports.h"
-#include "models/table_rows.h"
 
 namespace whirl_twin {
 

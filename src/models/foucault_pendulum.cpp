@@ -1,7 +1,7 @@
 #include "mechanics/pendulums/foucault_pendulum.h"
 
 #include "models/model_entry.h"
-#include "models/small_systems.h"
+#include "models/models.h"
 
 namespace whirl_twin {
 

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "mechanics/oscillators/regularized_friction_oscillator.h"
-#include "mechanics/oscillators/sticking_friction_oscillator.h"
 #include "models/model_entry.h"
 #include "models/models.h"
 

@@ -4,8 +4,7 @@
 
 #include "integration/linear_methods.h"
 #include "mechanics/lagrangian_dynamics.h"
-#include "mechanics/oscillators/small_hinged_beam.h"
-#include "models/linear_setup.h"
+#include "models/linear_rotor_setup.h"
 #include "models/model_entry.h"
 #include "models/models.h"
 

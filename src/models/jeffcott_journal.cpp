@@ -5,8 +5,8 @@
 #include "mechanics/lagrangian_dynamics.h"
 #include "mechanics/local_elements.h"
 #include "mechanics/rotors/journal_jeffcott_rotor.h"
-#include "models/jeffcott_forms.h"
 #include "models/linear_rotor_setup.h"
+#include "models/models.h"
 #include "models/spinning_setup.h"
 
 namespace whirl_twin {

@@ -1,5 +1,5 @@
 #include "mechanics/rotors/nonlinear_jeffcott_rotor.h"
-#include "models/jeffcott_forms.h"
+#include "models/models.h"
 #include "models/spinning_setup.h"
 
 namespace whirl_twin {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "mechanics/lagrangian_dynamics.h"
-#include "models/jeffcott_forms.h"
 #include "models/levitated_rotor.h"
 #include "models/linear_rotor_setup.h"
 #include "models/model_entry.h"

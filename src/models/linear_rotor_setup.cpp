@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 #include <utility>
 
 #include "analysis/sommerfeld_speeds.h"
 #include "integration/exponential.h"
 #include "integration/lateral_rotor_stepper.h"
+#include "integration/linear_methods.h"
 #include "integration/linear_rotor_stepper.h"
+#include "integration/linear_stepper.h"
 #include "integration/spinning_rotor_stepper.h"
 #include "mechanics/linear_rotor_dynamics.h"
 #include "mechanics/locally_forced_rotor.h"
@@ -15,6 +19,16 @@
 #include "models/exact_stepper.h"
 
 namespace whirl_twin {
+
+ModelSetup linearSetup(LinearModel model) {
+  const auto dynamics = std::make_shared<const LinearDynamics>(std::move(model));
+  return {dynamics, linearMethodNames(),
+          [dynamics](const std::string& integrator, const Excitation& excitation, double step,
+                     int substeps) {
+            return std::make_unique<LinearStepper>(dynamics->linearModel(), integrator, step,
+                                                   substeps, excitation.inputs);
+          }};
+}
 
 namespace {
 

@@ -6,11 +6,18 @@
 
 #include "integration/jacobi_integral.h"
 #include "mechanics/dynamics.h"
+#include "mechanics/linear_dynamics.h"
 #include "mechanics/local_force.h"
 #include "mechanics/spin_coupling.h"
 #include "models/model_info.h"
 
 namespace whirl_twin {
+
+// The setup of a model that is a linear system given by its matrices.
+
+/// A setup that steps with every method of linear systems. Throws Refusal as
+/// LinearDynamics does.
+ModelSetup linearSetup(LinearModel model);
 
 /// The setup of a model whose dynamics are a linear rotor: it steps with `exponential`, at constant
 /// and at changing speed. With local forces it is the rotor of what is linear in them, and the

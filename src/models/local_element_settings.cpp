@@ -7,7 +7,7 @@
 
 #include "mechanics/local_elements.h"
 #include "models/model_info.h"
-#include "models/table_rows.h"
+#include "models/settings.h"
 
 namespace whirl_twin {
 

@@ -1,8 +1,7 @@
 #include "mechanics/oscillators/mass_spring_damper.h"
 
-#include "mechanics/oscillators/rubbing_mass_spring_damper.h"
 #include "models/model_entry.h"
-#include "models/small_systems.h"
+#include "models/models.h"
 
 namespace whirl_twin {
 

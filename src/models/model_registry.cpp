@@ -7,7 +7,6 @@
 #include "integration/step_methods.h"
 #include "integration/stoermer_weights.h"
 #include "models/models.h"
-#include "models/small_systems.h"
 
 namespace whirl_twin {
 

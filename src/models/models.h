@@ -26,4 +26,24 @@ ModelInfo spinningPendulumInfo();
 ModelInfo sprungInvertedPendulumInfo();
 ModelInfo twoBarLinkageInfo();
 
+// Small systems that one looks for by name, as models.h: one function a model, each in a
+// translation unit of its own.
+
+ModelInfo elasticPendulumInfo();
+ModelInfo foucaultPendulumInfo();
+ModelInfo kapitzaPendulumInfo();
+ModelInfo massSpringDamperInfo();
+
+// The forms of the Jeffcott rotor, each in a translation unit of its own.
+
+/// Each with the gravity and the motor that `around` says.
+ModelSetup setUpNonlinearJeffcott(const ParameterValues& values, const Surroundings& around);
+ModelSetup setUpJournalJeffcott(const ParameterValues& values, const Surroundings& around);
+/// With a motor, of which there must be one.
+ModelSetup setUpSpinningJeffcott(const ParameterValues& values, const Surroundings& around);
+
+ModelVariant nonlinearJeffcottVariant(const std::string& when);
+ModelVariant journalJeffcottVariant(const std::string& when);
+ModelVariant spinningJeffcottVariant(const std::string& when);
+
 }  // namespace whirl_twin

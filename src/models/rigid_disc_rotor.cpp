@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "mechanics/lagrangian_dynamics.h"
-#include "mechanics/rotors/turning_rigid_disc_rotor.h"
 #include "models/levitated_rotor.h"
 #include "models/linear_rotor_setup.h"
 #include "models/model_entry.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "messages/names.h"
-#include "models/table_rows.h"
+#include "models/settings.h"
 
 namespace whirl_twin {
 

@@ -9,7 +9,7 @@
 #include "mechanics/rotors/bearing_laws.h"
 #include "models/local_element_settings.h"
 #include "models/model_info.h"
-#include "models/table_rows.h"
+#include "models/settings.h"
 
 namespace whirl_twin {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "integration/member_equations.h"
+#include "integration/member_steps.h"
 #include "mechanics/dynamics.h"
 
 namespace whirl_twin {

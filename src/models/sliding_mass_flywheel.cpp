@@ -1,6 +1,5 @@
 #include "mechanics/rotors/sliding_mass_flywheel.h"
 
-#include "mechanics/rotors/symmetric_sliding_mass_flywheel.h"
 #include "models/model_entry.h"
 #include "models/models.h"
 

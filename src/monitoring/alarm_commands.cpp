@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "messages/names.h"
 #include "messages/wall_clock.h"
 

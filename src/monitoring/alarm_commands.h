@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "messages/alarm_command.h"
+#include "messages/commands.h"
 #include "monitoring/twin_monitor.h"
 
 namespace whirl_twin {

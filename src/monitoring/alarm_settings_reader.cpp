@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "messages/names.h"
 #include "monitoring/signal_settings_reader.h"
 #include "scene/node_reader.h"

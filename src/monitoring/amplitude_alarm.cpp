@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 AmplitudeAlarm::AmplitudeAlarm(std::string system, const AlarmSettings& settings)

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 namespace {

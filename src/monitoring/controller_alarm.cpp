@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 

@@ -4,7 +4,6 @@
 #include <map>
 #include <string>
 
-#include "messages/controller_margins.h"
 #include "messages/controller_state.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"

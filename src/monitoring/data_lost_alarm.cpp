@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "algebra/constants.h"
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 namespace {

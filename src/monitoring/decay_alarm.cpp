@@ -9,7 +9,7 @@
 #include "algebra/constants.h"
 #include "analysis/routh.h"
 #include "control/shaft_angle.h"
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 

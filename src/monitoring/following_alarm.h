@@ -2,8 +2,9 @@
 //
 //   MODEL_MISMATCH   the residuals are larger or smaller than the model allows, or last from sample
 //                    to sample: beyond the limits that the message brings, which are those of a
-//                    rate of false alarms (estimation/residual_watch.h)
-//   DRIFT            a parameter has become another (estimation/drift_watch.h): which, from where,
+//                    rate of false alarms (estimation/innovation_tests.h)
+//   DRIFT            a parameter has become another (estimation/innovation_tests.h): which, from
+//   where,
 //                    to where, since when
 //   SENSOR           a channel is silent, refused or invalid, or the shaft's angle is not known,
 //   for

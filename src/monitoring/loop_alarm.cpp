@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/routh_result.h"
-#include "messages/alert_types.h"
+#include "analysis/routh.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 

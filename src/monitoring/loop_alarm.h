@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "messages/controller_margins.h"
+#include "messages/controller_state.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
 #include "monitoring/condition_alarm.h"

@@ -13,7 +13,7 @@
 
 #include "analysis/sampled_stability.h"
 #include "analysis/stability.h"
-#include "messages/controller_margins.h"
+#include "messages/controller_state.h"
 #include "messages/refusal.h"
 #include "scene/built_system.h"
 #include "scene/closed_loop.h"

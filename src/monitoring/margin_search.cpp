@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "analysis/cross_coupling_margin.h"
-#include "analysis/routh_result.h"
+#include "analysis/routh.h"
 
 namespace whirl_twin {
 

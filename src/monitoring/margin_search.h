@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "analysis/decrement_amplitude.h"
+#include "analysis/validity.h"
 #include "monitoring/judging.h"
 #include "monitoring/parameter_margins.h"
 #include "monitoring/spread_margin.h"

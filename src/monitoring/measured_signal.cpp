@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "algebra/constants.h"
-#include "signal/told_orders.h"
+#include "signal/order_filter.h"
 
 namespace whirl_twin {
 

@@ -6,14 +6,13 @@
 
 #include "algebra/constants.h"
 #include "analysis/characteristic_polynomial.h"
+#include "analysis/linearized_motion.h"
 #include "analysis/routh.h"
-#include "analysis/small_motion.h"
 #include "analysis/stability.h"
 #include "messages/refusal.h"
 #include "monitoring/parameter_margins.h"
 #include "scene/driven_dynamics.h"
 #include "scene/ensemble_draw.h"
-#include "scene/spread_correlations.h"
 
 namespace whirl_twin {
 

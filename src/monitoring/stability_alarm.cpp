@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "analysis/routh_result.h"
-#include "messages/alert_types.h"
+#include "analysis/routh.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 namespace {

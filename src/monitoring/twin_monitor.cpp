@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "messages/names.h"
 #include "messages/wall_clock.h"
 

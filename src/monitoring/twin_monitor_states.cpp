@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "monitoring/twin_monitor.h"
 
 namespace whirl_twin {

@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <utility>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 

@@ -5,7 +5,7 @@
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "scene/node_reader.h"
-#include "scene/station_names.h"
+#include "scene/signal_names.h"
 #include "transport/ros_parameters.h"
 
 namespace whirl_twin {

@@ -2,7 +2,75 @@
 
 #include <ros/ros.h>
 
+#include "messages/wall_clock.h"
+#include "transport/master_watch.h"
+
 namespace whirl_twin {
+
+KeptHistory::KeptHistory(TwinMonitor& monitor, AlertEvents& events, const std::string& path)
+    : monitor_(monitor), events_(events) {
+  if (path.empty()) {
+    return;
+  }
+  history_.emplace(path);
+  monitor_.remember(history_->memory());
+  if (const std::size_t lines = history_->unreadableLines(); lines > 0) {
+    ROS_WARN("%s: %zu lines cannot be read and are left out", path.c_str(), lines);
+  }
+  run_ = history_->memory().run;
+  reportProblem();
+}
+
+void KeptHistory::keep() {
+  keepEvents();
+  if (!history_) {
+    return;
+  }
+  if (monitor_.run() && monitor_.run() != run_) {
+    run_ = monitor_.run();
+    history_->writeRun(*run_);
+  }
+  history_->retry();
+  reportProblem();
+}
+
+void KeptHistory::keepReset() {
+  keepEvents();
+  if (history_) {
+    history_->writeReset();
+  }
+}
+
+void KeptHistory::keepSettings(const std::string& text) {
+  keepEvents();
+  if (history_) {
+    history_->writeSettings(text);
+  }
+}
+
+void KeptHistory::keepEvents() {
+  for (state::Alert event : monitor_.alerts().takeEvents()) {
+    if (history_) {
+      event.stamp = wallClock();  // beside the simulated time that it has
+      history_->write(event);
+    }
+    event.stamp = stampNow();
+    events_.tell(event);
+  }
+}
+
+/// Each once: the alarms go on without.
+void KeptHistory::reportProblem() {
+  if (history_->problem() == reported_) {
+    return;
+  }
+  reported_ = history_->problem();
+  if (reported_.empty()) {
+    ROS_INFO("the alarm history is saved again");
+  } else {
+    ROS_WARN("%s", reported_.c_str());
+  }
+}
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include "nodes/command_channels.h"
 #include "nodes/command_sender.h"
 #include "nodes/command_taker.h"
-#include "nodes/private_parameter.h"
+#include "nodes/node_parameters.h"
 #include "nodes/refusal_report.h"
 #include "nodes/rising_count.h"
 #include "nodes/rival_report.h"
@@ -23,64 +23,32 @@
 namespace whirl_twin {
 namespace {
 
-constexpr const char* kHelp =
-    "usage: command_bridge_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "Commands to a twin between ROS and LCM: pause, resume, reset, step, set_speed, "
-    "set_parameter,\n"
-    "set_input, set_real_time_factor. Needs no scene.\n"
-    "\n"
-    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
-    "  ~role        take: from LCM to the services of the simulation, the default; send: from its\n"
-    "               own services to LCM\n"
-    "  ~lcm_url     default udpm://239.255.76.67:7667?ttl=0\n"
-    "  ~lcm_prefix  prefix of the channels, default TWIN_, or its namespace in capitals\n"
-    "  ~simulation  take: the node whose services are called, default simulation_node\n"
-    "  ~lease       take: s after a command during which other senders are refused, 0 to 3600,\n"
-    "               default 5\n"
-    "  ~played      take: true or false, default false: also accept commands sent more than 5 s\n"
-    "               ago, as those of a log are\n"
-    "  ~timeout     send: s to wait for an answer, 0.1 to 3600, default 5\n";
-
 constexpr std::chrono::milliseconds kPoll{20};
 constexpr int kThreads = 4;  // services at a time
 const ros::WallDuration kReportPeriod(1.0);
-constexpr double kLongest = 3600.0;  // s
-constexpr double kShortestTimeout = 0.1;
-
-struct BridgeSettings {
-  bool takes;
-  std::string lcm_url, lcm_prefix, simulation;
-  double lease;  ///< [s]
-  bool played;
-  double timeout;  ///< [s]
+struct BridgeParameters {
+  std::string role = "take";
+  std::string lcm_url, lcm_prefix;
+  std::string simulation = "simulation_node";
+  double lease = 5.0, timeout = 5.0;  ///< [s]
+  bool played = false;
 };
 
-double secondsFrom(const char* name, double shortest, double fallback) {
-  const double value = privateParameter(name, "a number of seconds", fallback);
-  if (!(value >= shortest && value <= kLongest)) {
-    throw Refusal(
-        fmt::format("{}: must be from {:g} to {:g} s, found {}", name, shortest, kLongest, value));
-  }
-  return value;
-}
-
-BridgeSettings readSettings() {
-  requireKnownParameters(
-      {"role", "lcm_url", "lcm_prefix", "simulation", "lease", "played", "timeout"});
-  BridgeSettings s;
-  const auto role = privateParameter<std::string>("role", "take or send", "take");
-  if (role != "take" && role != "send") {
-    throw Refusal(fmt::format("role: expected take or send, found {}", quoted(role)));
-  }
-  s.takes = role == "take";
-  s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM URL", kDefaultLcmUrl);
-  s.lcm_prefix = lcmPrefixParameter();
-  s.simulation = ros::names::resolve(
-      privateParameter<std::string>("simulation", "the name of a node", "simulation_node"));
-  s.lease = secondsFrom("lease", 0.0, 5.0);
-  s.played = privateParameter("played", "true or false", false);
-  s.timeout = secondsFrom("timeout", kShortestTimeout, 5.0);
-  return s;
+NodeParameters table(BridgeParameters& p) {
+  NodeParameters all(
+      "command_bridge_node",
+      "Commands to a twin between ROS and LCM: pause, resume, reset, step, set_speed, "
+      "set_parameter,\nset_input, set_real_time_factor. Needs no scene.");
+  all.choice("role", p.role, {"take", "send"},
+             "take: from LCM to the services of the simulation; send: from its own services to LCM")
+      .lcm(p.lcm_url, p.lcm_prefix)
+      .text("simulation", p.simulation, "", "take: the node whose services are called")
+      .number("lease", p.lease, {0.0, 3600.0, "s"},
+              "take: time after a command during which other senders are refused")
+      .flag("played", p.played,
+            "take: also accept commands sent more than 5 s ago, as those of a log are")
+      .number("timeout", p.timeout, {0.1, 3600.0, "s"}, "send: longest wait for an answer");
+  return all;
 }
 
 using Status = diagnostic_updater::DiagnosticStatusWrapper;
@@ -94,13 +62,15 @@ void addLatency(const TimingHistogram& latency, Status& status) {
 }
 
 void run() {
-  const BridgeSettings settings = readSettings();
+  BridgeParameters settings;
+  table(settings).read();
   CommandChannels channels(settings.lcm_url, settings.lcm_prefix);
   std::unique_ptr<CommandTaker> taker;
   std::unique_ptr<CommandSender> sender;
-  if (settings.takes) {
-    taker = std::make_unique<CommandTaker>(channels, nameOfThisProcess(), settings.simulation,
-                                           settings.lease, settings.played);
+  if (settings.role == "take") {
+    taker = std::make_unique<CommandTaker>(channels, nameOfThisProcess(),
+                                           ros::names::resolve(settings.simulation), settings.lease,
+                                           settings.played);
   } else {
     sender = std::make_unique<CommandSender>(channels, ros::NodeHandle("~"), nameOfThisProcess(),
                                              settings.timeout);
@@ -169,5 +139,6 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  return whirl_twin::runNode(argc, argv, "command_bridge_node", whirl_twin::kHelp, whirl_twin::run);
+  return whirl_twin::runNode(argc, argv, "command_bridge_node",
+                             whirl_twin::helpOf(whirl_twin::table), whirl_twin::run);
 }

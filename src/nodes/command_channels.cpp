@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "transport/command_channel.h"
 #include "transport/lcm_connection.h"
 #include "transport/payload_layout.h"
 

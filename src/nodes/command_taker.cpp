@@ -1,5 +1,6 @@
 #include "nodes/command_taker.h"
 
+#include <fmt/format.h>
 #include <ros/ros.h>
 
 #include <algorithm>
@@ -10,6 +11,23 @@
 #include "nodes/command_fields.h"
 
 namespace whirl_twin {
+
+std::string CommandLease::ask(const std::string& sender, double now) {
+  const std::string other = holder(now);
+  if (!other.empty() && other != sender) {
+    return fmt::format("{} has the command for another {:.1f} s, longer if it sends more commands",
+                       other, until_ - now);
+  }
+  holder_ = sender;
+  until_ = now + duration_;
+  return "";
+}
+
+void CommandLease::release(const std::string& sender) {
+  if (sender == holder_) {
+    until_ = -1.0;
+  }
+}
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Commands that come by LCM, to the services of a simulation on ROS, and their answers back. One
-// commander at a time has the twin (nodes/command_lease.h); whoever it is, pause is obeyed.
+// commander at a time has the twin (nodes/command_taker.h); whoever it is, pause is obeyed.
 #pragma once
 
 #include <condition_variable>
@@ -12,10 +12,30 @@
 #include <vector>
 
 #include "nodes/command_channels.h"
-#include "nodes/command_lease.h"
 #include "realtime/timing_histogram.h"
 
 namespace whirl_twin {
+
+// One commander at a time: who has commanded last keeps the twin to itself for a while.
+
+class CommandLease {
+ public:
+  /// duration [s], from the last command of a holder on.
+  explicit CommandLease(double duration) : duration_(duration) {}
+
+  /// A command comes at `now` [s, a clock that only goes forward]. "" if it may: the lease is its
+  /// sender's from then on; else who has it, and for how long.
+  std::string ask(const std::string& sender, double now);
+  /// Ends the lease, if it is the sender's.
+  void release(const std::string& sender);
+  /// Who has it; "": nobody.
+  std::string holder(double now) const { return now < until_ ? holder_ : ""; }
+
+ private:
+  double duration_;      // [s]
+  double until_ = -1.0;  // [s]
+  std::string holder_;
+};
 
 struct CommandCounts {
   std::uint64_t taken = 0;

@@ -13,18 +13,18 @@
 #include <vector>
 
 #include "estimation/clock_watch.h"
-#include "estimation/follow_settings_reader.h"
+#include "estimation/follow_settings.h"
 #include "estimation/followed_scene.h"
 #include "estimation/followed_sources.h"
 #include "estimation/follower.h"
 #include "nodes/changed_parameters.h"
 #include "nodes/follow_publisher.h"
 #include "nodes/machine_input.h"
-#include "nodes/private_parameter.h"
-#include "nodes/publish_rate.h"
+#include "nodes/node_parameters.h"
 #include "nodes/refusal_report.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
+#include "nodes/state_publisher.h"
 #include "plugins/plugins.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
@@ -35,29 +35,37 @@
 namespace whirl_twin {
 namespace {
 
-constexpr const char* kHelp =
-    "usage: follow_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "A twin that estimates the state of its machine: receives measurements from ROS or LCM;\n"
-    "publishes what simulation_node publishes, with the measurements and the estimated "
-    "parameters.\n"
-    "The scene (on the parameter server) is the model, its sensors specify what is measured.\n"
-    "\n"
-    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
-    "  ~machine         namespace of the machine's topics measured/..., default /machine\n"
-    "  ~input           ros or lcm, default ros: source of the measurements\n"
-    "  ~machine_prefix  prefix of the machine's LCM channels, default its namespace in capitals\n"
-    "  ~publish_rate    Hz, default 0: every step of the scene\n"
-    "  ~lcm_url         default udpm://239.255.76.67:7667?ttl=0; empty: no LCM\n"
-    "  ~lcm_prefix      prefix of its LCM channels, default TWIN_, or its namespace in capitals\n"
-    "  ~follow          what to estimate beside the motion, as in the file of\n"
-    "                   `twin follow --settings`\n";
+struct FollowParameters {
+  std::string machine = "/machine", machine_prefix;
+  std::string input = "ros";
+  double publish_rate = 0.0;
+  std::string lcm_url, lcm_prefix;
+};
+
+NodeParameters table(FollowParameters& p) {
+  NodeParameters all(
+      "follow_node",
+      "A twin that estimates the state of its machine: receives measurements from ROS or LCM;\n"
+      "publishes what simulation_node publishes, with the measurements and the estimated "
+      "parameters.\n"
+      "The scene (on the parameter server) is the model, its sensors specify what is measured.");
+  all.text("machine", p.machine, "", "namespace of the machine's topics measured/...")
+      .choice("input", p.input, {"ros", "lcm"}, "source of the measurements")
+      .text("machine_prefix", p.machine_prefix, "the machine's namespace in capitals",
+            "prefix of the machine's LCM channels")
+      .number("publish_rate", p.publish_rate, kPublishRates, "messages of a state per second")
+      .lcm(p.lcm_url, p.lcm_prefix)
+      .other("follow",
+             "what to estimate beside the motion, as in the file of `twin follow --settings`");
+  return all;
+}
 
 const ros::WallDuration kReportPeriod(1.0);
 const ros::WallDuration kSilence(1.0);         // of the machine, from which on it is told
 const ros::WallDuration kSilenceTelling(0.2);  // from one such message to the next
 const ros::WallDuration kAgainPeriod(10.0);    // of what LCM does not latch
 
-FollowSettings readSettings(const BuiltScene& scene) {
+FollowSettings followSettings(const BuiltScene& scene) {
   const ros::NodeHandle node("~");
   if (!node.hasParam("follow")) {
     return {};
@@ -91,33 +99,24 @@ void report(const MachineInput& input, const FollowPublisher& publisher, const F
 }
 
 void run() {
-  requireKnownParameters(
-      {"machine", "input", "machine_prefix", "publish_rate", "lcm_url", "lcm_prefix", "follow"});
+  FollowParameters settings;
+  table(settings).read();
   ros::NodeHandle node(twinNamespace());
   usePlugins();
   const ParameterTree given = parameterTree(node, "scene");
   Twin twin(readFollowedScene(given.tree, given.source));
-  const auto machine =
-      privateParameter<std::string>("machine", "the machine's namespace", "/machine");
-  const auto input = privateParameter<std::string>("input", "ros or lcm", "ros");
-  if (input != "ros" && input != "lcm") {
-    throw Refusal(fmt::format("input: must be ros or lcm, found '{}'", printable(input)));
-  }
-  const auto lcm_url =
-      privateParameter<std::string>("lcm_url", "an LCM URL, or nothing", kDefaultLcmUrl);
-  const auto prefix = privateParameter<std::string>("machine_prefix", "letters, digits and _",
-                                                    lcmPrefixOf(machine));
+  const auto& [machine, machine_prefix, input, publish_rate, lcm_url, own_prefix] = settings;
+  const std::string prefix = machine_prefix.empty() ? lcmPrefixOf(machine) : machine_prefix;
   requireLcmPrefix(prefix);
-  const std::string own_prefix = lcmPrefixParameter();
   if (machine == twinNamespace() || (input == "lcm" && prefix == own_prefix)) {
     throw Refusal(
         "machine: namespace and prefix must differ from the twin's, which publishes measurements "
         "under its own");
   }
-  const std::int64_t every = stepsToPublish(twin.scene());
-  const FollowSettings settings = readSettings(twin.built());
+  const std::int64_t every = stepsToPublish(twin.scene(), publish_rate);
+  const FollowSettings estimated = followSettings(twin.built());
   std::vector<std::string> sources;
-  for (const FollowedSource& source : followedSources(twin.scene(), settings)) {
+  for (const FollowedSource& source : followedSources(twin.scene(), estimated)) {
     sources.push_back(source.name);
   }
 
@@ -139,7 +138,7 @@ void run() {
     told.clock_drift = clocks.drift();
     publisher.publish(told);
   };
-  Follower follower(twin, generations, settings, every, listener);
+  Follower follower(twin, generations, estimated, every, listener);
   following = &follower;
   ros::WallTime heard = ros::WallTime::now();  // the last message
   const MachineInput::Handler take = [&](const state::Measurement& message) {
@@ -201,5 +200,6 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  return whirl_twin::runNode(argc, argv, "follow_node", whirl_twin::kHelp, whirl_twin::run);
+  return whirl_twin::runNode(argc, argv, "follow_node", whirl_twin::helpOf(whirl_twin::table),
+                             whirl_twin::run);
 }

@@ -92,7 +92,6 @@ void InputCommands::take(const state::InputCommand& command, const std::string& 
 
 void InputCommands::refuse(const std::string& why) {
   ++refused_;
-  last_refusal_ = why;
   ROS_WARN_THROTTLE(5.0, "an input command is refused: %s", why.c_str());
 }
 

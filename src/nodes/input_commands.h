@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "messages/input_command.h"
+#include "messages/commands.h"
 #include "nodes/twin_services.h"
 #include "transport/lcm_receiver.h"
 #include "twin/live_twin.h"
@@ -35,7 +35,6 @@ class InputCommands {
   const RefusedPayloads* refusedPayloads() const {
     return receiver_ ? &receiver_->refused() : nullptr;
   }
-  const std::string& lastRefusal() const { return last_refusal_; }
 
  private:
   void takeMessage(const ros::MessageEvent<const InputCommand>& event, const std::string& system);
@@ -47,7 +46,6 @@ class InputCommands {
   std::unique_ptr<LcmReceiver> receiver_;
   std::uint64_t taken_ = 0;
   std::uint64_t refused_ = 0;
-  std::string last_refusal_;
 };
 
 }  // namespace whirl_twin

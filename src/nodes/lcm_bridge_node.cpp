@@ -21,8 +21,7 @@
 #include "monitoring/run_filter.h"
 #include "nodes/changed_parameters.h"
 #include "nodes/lcm_bridge.h"
-#include "nodes/newest_states.h"
-#include "nodes/private_parameter.h"
+#include "nodes/node_parameters.h"
 #include "nodes/refusal_report.h"
 #include "nodes/rising_count.h"
 #include "nodes/rival_report.h"
@@ -32,24 +31,30 @@
 #include "transport/lcm_connection.h"
 #include "transport/lcm_receiver.h"
 #include "transport/ros_parameters.h"
+#include "transport/twin_namespace.h"
 
 namespace whirl_twin {
 namespace {
 
-constexpr const char* kHelp =
-    "usage: lcm_bridge_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "Publishes the LCM channels of a twin on the ROS topics of a live one: for played logs and\n"
-    "twins on other machines. Needs no scene.\n"
-    "\n"
-    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
-    "  ~lcm_url     where to listen, default udpm://239.255.76.67:7667?ttl=0\n"
-    "  ~lcm_prefix  prefix of the channels, default TWIN_, or its namespace in capitals\n"
-    "  ~derived     true or false, default false: also publish recorded margins and alerts\n"
-    "  ~newest      Hz, 0 to 1e5: publish only the newest state at this rate; default 0: every\n"
-    "               message\n";
+struct LcmBridgeParameters {
+  std::string lcm_url, lcm_prefix;
+  bool derived = false;
+  double newest = 0.0;  ///< [Hz]
+};
+
+NodeParameters table(LcmBridgeParameters& p) {
+  NodeParameters all(
+      "lcm_bridge_node",
+      "Publishes the LCM channels of a twin on the ROS topics of a live one: for played logs and\n"
+      "twins on other machines. Needs no scene.");
+  all.lcm(p.lcm_url, p.lcm_prefix)
+      .flag("derived", p.derived, "also publish recorded margins and alerts")
+      .number("newest", p.newest, {0.0, 1.0e5, "Hz", "every message"},
+              "publish only the newest state, at this rate");
+  return all;
+}
 
 constexpr std::chrono::milliseconds kPoll{50};
-constexpr double kMostOften = 1.0e5;  // Hz
 const ros::WallDuration kReportPeriod(1.0);
 
 Kinds kindsToTell(bool derived) {
@@ -121,24 +126,19 @@ class BridgeDiagnostics {
 };
 
 void run() {
-  requireKnownParameters({"lcm_url", "lcm_prefix", "derived", "newest"});
-  const auto url = privateParameter<std::string>("lcm_url", "an LCM URL", kDefaultLcmUrl);
-  const auto derived = privateParameter<bool>("derived", "true or false", false);
-  const std::string prefix = lcmPrefixParameter();
-  const double newest = privateParameter("newest", "a number in Hz", 0.0);
-  if (!(newest >= 0.0 && newest <= kMostOften)) {
-    throw Refusal(fmt::format("newest: must be from 0 (every message) to {:g} Hz, found {}",
-                              kMostOften, newest));
-  }
-  LcmBridge bridge(ros::NodeHandle(twinNamespace()), derived);
+  LcmBridgeParameters settings;
+  table(settings).read();
+  const std::string& url = settings.lcm_url;
+  const std::string& prefix = settings.lcm_prefix;
+  LcmBridge bridge(ros::NodeHandle(twinNamespace()), settings.derived);
   NewestStates states(
-      std::chrono::microseconds(newest > 0.0 ? std::llround(1.0e6 / newest) : 0),
+      std::chrono::microseconds(settings.newest > 0.0 ? std::llround(1.0e6 / settings.newest) : 0),
       [&bridge](const Message& message) { bridge.publish(message); }, wallMicroseconds);
   LcmRivals rivals(prefix);
   RunFilter runs;
   std::unique_ptr<LcmReceiver> receiver;
   receiver = std::make_unique<LcmReceiver>(
-      openLcm(url), kindsToTell(derived),
+      openLcm(url), kindsToTell(settings.derived),
       [&](const Message& message) {
         if (const auto* loop = std::get_if<state::LoopStatistics>(&message)) {
           rivals.take(*loop);
@@ -197,5 +197,6 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  return whirl_twin::runNode(argc, argv, "lcm_bridge_node", whirl_twin::kHelp, whirl_twin::run);
+  return whirl_twin::runNode(argc, argv, "lcm_bridge_node", whirl_twin::helpOf(whirl_twin::table),
+                             whirl_twin::run);
 }

@@ -7,9 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "nodes/private_parameter.h"
+#include "nodes/node_parameters.h"
 #include "nodes/run_node.h"
-#include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_recorder.h"
 #include "transport/master_watch.h"
@@ -17,25 +16,27 @@
 namespace whirl_twin {
 namespace {
 
-constexpr const char* kHelp =
-    "usage: lcm_recorder_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "Records the LCM channels of a twin as an LCM log, until it is interrupted.\n"
-    "\n"
-    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
-    "  ~log         the file to write\n"
-    "  ~lcm_url     where to listen, default udpm://239.255.76.67:7667?ttl=0\n"
-    "  ~lcm_prefix  prefix of the channels, default TWIN_, or its namespace in capitals\n"
-    "  ~force       true or false, default false: overwrite an existing file\n";
+struct RecorderParameters {
+  std::string log, lcm_url, lcm_prefix;
+  bool force = false;
+};
+
+NodeParameters table(RecorderParameters& p) {
+  NodeParameters all("lcm_recorder_node",
+                     "Records the LCM channels of a twin as an LCM log, until it is interrupted.");
+  all.text("log", p.log, "none, it is required", "the file to write")
+      .lcm(p.lcm_url, p.lcm_prefix)
+      .flag("force", p.force, "overwrite an existing file");
+  return all;
+}
 
 using std::chrono::milliseconds;
 
 void run() {
   const ros::NodeHandle node;  // keeps ROS up while the parameters are read
-  requireKnownParameters({"log", "lcm_url", "lcm_prefix", "force"});
-  const auto log = privateParameter<std::string>("log", "the name of a file", "");
-  const auto url = privateParameter<std::string>("lcm_url", "an LCM URL", kDefaultLcmUrl);
-  const auto force = privateParameter<bool>("force", "true or false", false);
-  const std::string prefix = lcmPrefixParameter();
+  RecorderParameters settings;
+  table(settings).read();
+  const auto& [log, url, prefix, force] = settings;
   if (log.empty()) {
     throw Refusal("log: missing; must be the name of a file to write");
   }
@@ -60,5 +61,6 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  return whirl_twin::runNode(argc, argv, "lcm_recorder_node", whirl_twin::kHelp, whirl_twin::run);
+  return whirl_twin::runNode(argc, argv, "lcm_recorder_node", whirl_twin::helpOf(whirl_twin::table),
+                             whirl_twin::run);
 }

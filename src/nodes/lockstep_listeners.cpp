@@ -8,7 +8,6 @@
 #include <sstream>
 #include <thread>
 
-#include "nodes/private_parameter.h"
 #include "transport/ros_topics.h"
 
 namespace whirl_twin {
@@ -17,9 +16,6 @@ namespace {
 
 constexpr std::uint32_t kLockstepQueue = 1000;
 constexpr const char* kTopic = "lockstep";
-constexpr int kMostAhead = 1000;
-constexpr double kShortestTimeout = 0.1;  // s
-constexpr double kLongestTimeout = 86400.0;
 constexpr double kPatience = 0.3;  // s that one may take without being looked after, and named
 const ros::WallDuration kLookPeriod(0.1);
 
@@ -33,11 +29,12 @@ std::string joined(const std::vector<std::string>& names) {
 
 }  // namespace
 
-Lockstep::Settings lockstepParameters(std::int64_t every) {
+Lockstep::Settings lockstepSettings(std::string names, int ahead, double timeout,
+                                    std::int64_t every) {
   Lockstep::Settings settings;
+  settings.ahead = ahead;
+  settings.timeout = timeout;
   settings.every = every;
-  std::string names =
-      privateParameter<std::string>("lockstep", "names of nodes, separated by commas", "");
   std::replace(names.begin(), names.end(), ',', ' ');
   std::istringstream words(names);
   std::string word;
@@ -52,16 +49,6 @@ Lockstep::Settings lockstepParameters(std::int64_t every) {
       throw Refusal(fmt::format("lockstep: duplicate {}", name));
     }
     settings.who.push_back(name);
-  }
-  settings.ahead = privateParameter("lockstep_ahead", "a whole number of publications", 1);
-  if (settings.ahead < 1 || settings.ahead > kMostAhead) {
-    throw Refusal(
-        fmt::format("lockstep_ahead: must be from 1 to {}, found {}", kMostAhead, settings.ahead));
-  }
-  settings.timeout = privateParameter("lockstep_timeout", "a number of seconds", settings.timeout);
-  if (!(settings.timeout >= kShortestTimeout && settings.timeout <= kLongestTimeout)) {
-    throw Refusal(fmt::format("lockstep_timeout: must be from {} to {} s, found {}",
-                              kShortestTimeout, kLongestTimeout, settings.timeout));
   }
   return settings;
 }

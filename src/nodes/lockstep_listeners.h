@@ -19,8 +19,10 @@
 
 namespace whirl_twin {
 
-/// ~lockstep, ~lockstep_ahead and ~lockstep_timeout. Throws Refusal.
-Lockstep::Settings lockstepParameters(std::int64_t every);
+/// `names`: nodes, separated by commas; `ahead` publications; `timeout` [s]; `every` steps from one
+/// publication to the next. Throws Refusal for what is no name of a node, or a duplicate.
+Lockstep::Settings lockstepSettings(std::string names, int ahead, double timeout,
+                                    std::int64_t every);
 
 class LockstepListeners {
  public:

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "messages/slowest_part.h"
+#include "messages/loop_statistics.h"
 
 namespace whirl_twin {
 

@@ -21,8 +21,7 @@
 #include "nodes/alarm_settings_service.h"
 #include "nodes/alert_events.h"
 #include "nodes/changed_parameters.h"
-#include "nodes/kept_history.h"
-#include "nodes/private_parameter.h"
+#include "nodes/node_parameters.h"
 #include "nodes/refusal_report.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
@@ -34,27 +33,35 @@
 #include "transport/master_watch.h"
 #include "transport/ros_parameters.h"
 #include "transport/ros_topics.h"
+#include "transport/twin_namespace.h"
 #include "twin/step_messages.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kHelp =
-    "usage: monitor_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "The monitor: receives live states by ROS or by LCM; publishes stability margins and the list\n"
-    "of alerts. It needs the scene on the parameter server.\n"
-    "\n"
-    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
-    "  ~source      ros or lcm, default ros: source of all messages it monitors\n"
-    "  ~lcm_url     default udpm://239.255.76.67:7667?ttl=0; empty: no LCM\n"
-    "  ~lcm_prefix  prefix of the twin's LCM channels, default TWIN_, or its namespace in "
-    "capitals\n"
-    "  ~history     a file: every change of the alarms is saved in it and restored at start;\n"
-    "               default: none\n"
-    "  ~await_scene  s, longest wait for the scene, which a played log brings; default 0\n"
-    "The limits of its alarms are those of config/monitor.yaml, where each is explained:\n"
-    "  <rosparam command=\"load\" file=\"$(find whirl_twin)/config/monitor.yaml\"/>\n";
+struct MonitorParameters {
+  std::string source = "ros";
+  std::string lcm_url, lcm_prefix, history;
+  double await_scene = 0.0;  ///< [s]
+};
+
+NodeParameters table(MonitorParameters& p) {
+  NodeParameters all("monitor_node",
+                     "The monitor: receives live states by ROS or by LCM; publishes stability "
+                     "margins and the list\n"
+                     "of alerts. It needs the scene on the parameter server.");
+  all.choice("source", p.source, {"ros", "lcm"}, "source of all messages it monitors")
+      .lcm(p.lcm_url, p.lcm_prefix)
+      .text("history", p.history, "none",
+            "a file: every change of the alarms is saved in it and restored at start")
+      .number("await_scene", p.await_scene, {0.0, 86400.0, "s"},
+              "longest wait for the scene, which a played log brings")
+      .others(
+          "The limits of its alarms are those of config/monitor.yaml, where each is explained:\n"
+          "  <rosparam command=\"load\" file=\"$(find whirl_twin)/config/monitor.yaml\"/>\n");
+  return all;
+}
 
 constexpr std::uint32_t kQueue = 5000;        // some seconds at 1 kHz
 constexpr std::uint32_t kPublishQueue = 100;  // ten seconds of margins
@@ -68,10 +75,9 @@ double wallTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// The scene of a log that is played comes a moment after the monitor: ~await_scene [s].
-const ros::NodeHandle& awaitScene(const ros::NodeHandle& node) {
-  const auto patience = privateParameter<double>("await_scene", "a time in s", 0.0);
-  const double end = wallTime() + patience;
+/// The scene of a log that is played comes a moment after the monitor.
+const ros::NodeHandle& awaitScene(const ros::NodeHandle& node, double longest) {
+  const double end = wallTime() + longest;
   while (!node.hasParam("scene") && wallTime() < end && !stopRequested()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
@@ -80,17 +86,18 @@ const ros::NodeHandle& awaitScene(const ros::NodeHandle& node) {
 
 class MonitorNode {
  public:
-  explicit MonitorNode(ros::NodeHandle node)
+  MonitorNode(ros::NodeHandle node, const MonitorParameters& parameters)
       : node_(node),
-        given_(parameterTree(awaitScene(node), "scene")),
+        given_(parameterTree(awaitScene(node, parameters.await_scene), "scene")),
         scene_(build(readScene(given_.tree, given_.source))),
         watched_scene_(sceneLines(given_.tree), given_.source),
         settings_(alarmSettingsOf(scene_)),
         monitor_(scene_, settings_.settings(), Judging::Mode::kBeside),
-        url_(privateParameter<std::string>("lcm_url", "an LCM URL, or nothing", kDefaultLcmUrl)),
-        lcm_(url_, lcmPrefixParameter()),
+        url_(parameters.lcm_url),
+        lcm_(url_, parameters.lcm_prefix),
         rivals_(lcm_.prefix()),
         topics_(node, kPublishQueue),
+        history_(monitor_, events_, parameters.history),
         services_(monitor_, ros::NodeHandle("~"), node, wallTime, [this] { history_.keepReset(); }),
         settings_service_(monitor_, settings_, ros::NodeHandle("~"),
                           [this](const std::string& text) { history_.keepSettings(text); }) {
@@ -113,16 +120,12 @@ class MonitorNode {
     topics_.advertise<state::MonitorStatus>();
     publishAlerts();
 
-    const auto source = privateParameter<std::string>("source", "ros or lcm", "ros");
-    if (source == "ros") {
+    if (parameters.source == "ros") {
       subscribe();
-    } else if (source == "lcm") {
-      if (url_.empty()) {
-        throw Refusal("lcm_url: must be an LCM URL with source lcm, found nothing");
-      }
-      receive(url_);
+    } else if (url_.empty()) {
+      throw Refusal("lcm_url: must be an LCM URL with source lcm, found nothing");
     } else {
-      throw Refusal("source: must be ros or lcm, found '" + source + "'");
+      receive(url_);
     }
     diagnostics_.setHardwareID("none");
     diagnostics_.add("monitor", this, &MonitorNode::summarize);
@@ -348,7 +351,7 @@ class MonitorNode {
   AlertEvents events_{lcm_};
   LcmRivals rivals_;
   RosTopics topics_;
-  KeptHistory history_{monitor_, events_};
+  KeptHistory history_;
   AlarmServices services_;
   AlarmSettingsService settings_service_;
   std::vector<ros::Subscriber> subscribers_;
@@ -369,7 +372,9 @@ class MonitorNode {
 
 void run() {
   usePlugins();
-  MonitorNode monitor{ros::NodeHandle(twinNamespace())};
+  MonitorParameters parameters;
+  table(parameters).read();
+  MonitorNode monitor(ros::NodeHandle(twinNamespace()), parameters);
   while (!stopRequested() && ros::ok()) {
     monitor.spinOnce();
   }
@@ -382,5 +387,6 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  return whirl_twin::runNode(argc, argv, "monitor_node", whirl_twin::kHelp, whirl_twin::run);
+  return whirl_twin::runNode(argc, argv, "monitor_node", whirl_twin::helpOf(whirl_twin::table),
+                             whirl_twin::run);
 }

@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 
-#include "transport/channel_listener.h"
 #include "transport/master_watch.h"
 #include "transport/refused_payloads.h"
 #include "transport/twin_senders.h"

@@ -15,7 +15,7 @@
 
 #include "messages/names.h"
 #include "messages/refusal.h"
-#include "nodes/node_help.h"
+#include "nodes/node_parameters.h"
 
 namespace whirl_twin {
 
@@ -103,9 +103,9 @@ bool stopRequested() {
   return stop_requested.load();
 }
 
-int runNode(int argc, char** argv, const char* name, const char* help,
+int runNode(int argc, char** argv, const char* name, const std::string& help,
             const std::function<void()>& run) {
-  if (toldHelp(argc, argv, help)) {
+  if (printsHelp(argc, argv, help)) {
     return 0;
   }
   try {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <sched.h>
 #include <whirl_twin/MonitorStatus.h>
 
 #include <algorithm>
@@ -15,15 +16,14 @@
 #include <string>
 
 #include "accuracy/step_choice.h"
-#include "messages/monitor_pulse.h"
+#include "messages/monitor_status.h"
 #include "nodes/changed_parameters.h"
 #include "nodes/checkpoint_saver.h"
 #include "nodes/external_controllers.h"
 #include "nodes/input_commands.h"
 #include "nodes/lockstep_listeners.h"
 #include "nodes/loop_report.h"
-#include "nodes/private_parameter.h"
-#include "nodes/publish_rate.h"
+#include "nodes/node_parameters.h"
 #include "nodes/record_publisher.h"
 #include "nodes/refusal_report.h"
 #include "nodes/rival_report.h"
@@ -45,143 +45,96 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kHelp =
-    "usage: simulation_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "The simulation: reads the scene from the parameter server (scene, in the namespace of its\n"
-    "twin: /twin/scene for a node in the root namespace), steps it at a fixed rate, publishes its\n"
-    "states on ROS and LCM, and serves changes.\n"
-    "\n"
-    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
-    "  ~publish_rate      Hz, default 0: every step\n"
-    "  ~batch             s, 0 to 0.1, longest delay of states sent together, default 0\n"
-    "  ~real_time_factor  simulated seconds per second of wall time, 0.01 to 1000, default 1;\n"
-    "                     0: as fast as possible\n"
-    "  ~lcm_url           default udpm://239.255.76.67:7667?ttl=0; empty: no LCM\n"
-    "  ~lcm_prefix        prefix of its LCM channels, default TWIN_, or its namespace in capitals\n"
-    "  ~realtime          enforce, warn or ignore, default warn: reaction to missing real-time\n"
-    "                     priority\n"
-    "  ~priority          SCHED_FIFO priority, default 50\n"
-    "  ~cpu               the processor of the loop, default -1: any\n"
-    "  ~give_up           s of uninterrupted overruns after which it exits, default 0: never\n"
-    "  ~busy_wait         s of busy waiting before each step, up to half a step, default 0\n"
-    "  ~overrun           skip, catch_up or stop, default skip: reaction to overruns\n"
-    "  ~clock             true or false, default false: publish simulated time on /clock and "
-    "stamp\n"
-    "                     messages with it\n"
-    "  ~clock_rate        Hz, of /clock, default 250\n"
-    "  ~paused            true or false, default false: paused at its start until ~resume or "
-    "~step\n"
-    "  ~lockstep          nodes, separated by commas, that acknowledge each step on the topic\n"
-    "                     lockstep before simulated time continues; default: none\n"
-    "  ~lockstep_ahead    publications ahead of the last acknowledged one, 1 to 1000, default 1\n"
-    "  ~lockstep_timeout  s without an acknowledgement after which it pauses, default 5\n"
-    "  ~measure           true or false, default false: publish the measurements of the scene's\n"
-    "                     sensors on measured/SOURCE\n"
-    "  ~checkpoint        a file, in which the twin is saved while it runs and at its end;\n"
-    "                     default: none\n"
-    "  ~checkpoint_period s between two checkpoints, 0.1 to 1e6, default 5\n"
-    "  ~resume            a checkpoint to resume, bit-identical; default: the scene's start\n";
-
-constexpr double kClockRate = 250.0;               // Hz
-constexpr double kSlowestClock = 1.0e-3;           // Hz
-constexpr double kFastestClock = 1.0e5;            // Hz
-constexpr std::int64_t kShortestStep = 10'000;     // ns, that the fixed-rate loop takes
-constexpr double kLongestBatch = 0.1;              // s
-constexpr double kLongestGiveUp = 86400.0;         // s
-constexpr double kCheckpointPeriod = 5.0;          // s
-constexpr double kShortestCheckpointPeriod = 0.1;  // s
-constexpr double kLongestCheckpointPeriod = 1.0e6;
+constexpr std::int64_t kMinStep = 10'000;  // ns, that the fixed-rate loop takes
 constexpr auto kReportPeriod = std::chrono::seconds(1);
 constexpr double kServicePoll = 0.05;   // s
 constexpr double kCommandPoll = 0.002;  // s, where there are ramps or commands by LCM
 
-/// The node's private parameters.
-struct SimulationSettings {
-  std::int64_t every;  ///< steps from one publication to the next
-  std::chrono::microseconds batch;
-  std::string lcm_url;
-  std::string lcm_prefix;
-  bool clock;
-  double clock_rate;  ///< [Hz], in simulated time
-  bool paused;        ///< at its start
-  bool measure;       ///< publish what the scene's sensors see
-  double real_time_factor;
-  std::string checkpoint;    ///< file; empty: none
-  double checkpoint_period;  ///< [s]
-  std::string resume;        ///< file; empty: none
-  Lockstep::Settings lockstep;
-  FixedRateLoop::Options loop;
+/// The node's private parameters, as they are given.
+struct SimulationParameters {
+  double publish_rate = 0.0, batch = 0.0, real_time_factor = 1.0;
+  std::string lcm_url, lcm_prefix;
+  std::string realtime = "warn", overrun = "skip";
+  int priority = 50, cpu = -1;
+  double give_up = 0.0, busy_wait = 0.0;
+  bool clock = false, paused = false, measure = false;
+  double clock_rate = 250.0;
+  std::string lockstep;
+  int lockstep_ahead = 1;
+  double lockstep_timeout = 5.0;
+  std::string checkpoint, resume;
+  double checkpoint_period = 5.0;
 };
 
-SimulationSettings readSettings(const Scene& scene) {
-  requireKnownParameters({"publish_rate",    "lcm_url",   "lcm_prefix",       "clock",
-                          "realtime",        "priority",  "overrun",          "cpu",
-                          "give_up",         "busy_wait", "real_time_factor", "measure",
-                          "clock_rate",      "paused",    "checkpoint",       "checkpoint_period",
-                          "resume",          "batch",     "lockstep",         "lockstep_ahead",
-                          "lockstep_timeout"});
-  SimulationSettings s;
-  s.every = stepsToPublish(scene);
-  const double batch = privateParameter("batch", "a number of seconds", 0.0);
-  if (!(batch >= 0.0 && batch <= kLongestBatch)) {
-    throw Refusal(fmt::format("batch: must be from 0 to {:g} s, found {}", kLongestBatch, batch));
-  }
-  s.batch = std::chrono::microseconds(std::llround(batch * 1.0e6));
-  s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM URL, or nothing", kDefaultLcmUrl);
-  s.lcm_prefix = lcmPrefixParameter();
-  s.clock = privateParameter("clock", "true or false", false);
-  if (s.clock && scene.time < 0) {
+NodeParameters table(SimulationParameters& p) {
+  NodeParameters all(
+      "simulation_node",
+      "The simulation: reads the scene from the parameter server (scene, in the namespace of its\n"
+      "twin: /twin/scene for a node in the root namespace), steps it at a fixed rate, publishes "
+      "its\n"
+      "states on ROS and LCM, and serves changes.");
+  all.number("publish_rate", p.publish_rate, kPublishRates, "messages of a state per second")
+      .number("batch", p.batch, {0.0, 0.1, "s"}, "longest delay of states sent together")
+      .number("real_time_factor", p.real_time_factor, {0.01, 1000.0, "", "as fast as possible"},
+              "simulated seconds per second of wall time")
+      .lcm(p.lcm_url, p.lcm_prefix)
+      .choice("realtime", p.realtime, {"enforce", "warn", "ignore"},
+              "reaction to missing real-time priority")
+      .whole("priority", p.priority, 1, 98, "SCHED_FIFO priority of the loop")
+      .whole("cpu", p.cpu, -1, CPU_SETSIZE - 1, "processor of the loop; -1: any")
+      .number("give_up", p.give_up, {0.0, 86400.0, "s", "never"},
+              "uninterrupted overruns after which the node exits")
+      .number("busy_wait", p.busy_wait, {0.0, 10.0, "s"},
+              "busy waiting before each step, up to half a step")
+      .choice("overrun", p.overrun, {"skip", "catch_up", "stop"}, "reaction to overruns")
+      .flag("clock", p.clock, "publish simulated time on /clock and stamp messages with it")
+      .number("clock_rate", p.clock_rate, {1.0e-3, 1.0e5, "Hz"}, "of /clock")
+      .flag("paused", p.paused, "paused at its start until ~resume or ~step")
+      .text("lockstep", p.lockstep, "none",
+            "nodes, separated by commas, that acknowledge each step on the topic lockstep before "
+            "simulated time continues")
+      .whole("lockstep_ahead", p.lockstep_ahead, 1, 1000,
+             "publications ahead of the last acknowledged one")
+      .number("lockstep_timeout", p.lockstep_timeout, {0.1, 86400.0, "s"},
+              "time without an acknowledgement after which it pauses")
+      .flag("measure", p.measure, "publish the measurements of the scene's sensors")
+      .text("checkpoint", p.checkpoint, "none",
+            "a file in which the twin is saved while it runs and at its end")
+      .number("checkpoint_period", p.checkpoint_period, {0.1, 1.0e6, "s"},
+              "from one checkpoint to the next")
+      .text("resume", p.resume, "the scene's start", "a checkpoint to resume, bit-identical");
+  return all;
+}
+
+/// Throws Refusal for what does not fit the scene.
+void requireFits(const SimulationParameters& p, const Scene& scene) {
+  if (p.clock && scene.time < 0) {
     throw Refusal("clock: needs a scene whose time is >= 0 s");
   }
-  s.clock_rate = privateParameter("clock_rate", "a number in Hz", kClockRate);
-  if (!(s.clock_rate >= kSlowestClock && s.clock_rate <= kFastestClock)) {
-    throw Refusal(fmt::format("clock_rate: must be from {} to {} Hz, found {}", kSlowestClock,
-                              kFastestClock, s.clock_rate));
-  }
-  s.paused = privateParameter("paused", "true or false", false);
-  s.lockstep = lockstepParameters(s.every);
-  s.measure = privateParameter("measure", "true or false", false);
-  if (s.measure && scene.sensors.empty()) {
+  if (p.measure && scene.sensors.empty()) {
     throw Refusal("measure: the scene has no sensors");
   }
-  s.real_time_factor = privateParameter("real_time_factor", "a number", 1.0);
-  if (const std::string fault = factorFault(s.real_time_factor); !fault.empty()) {
-    throw Refusal(fault);
-  }
-  s.checkpoint = privateParameter<std::string>("checkpoint", "a file, or nothing", "");
-  s.checkpoint_period = privateParameter("checkpoint_period", "a number in s", kCheckpointPeriod);
-  if (!(s.checkpoint_period >= kShortestCheckpointPeriod &&
-        s.checkpoint_period <= kLongestCheckpointPeriod)) {
-    throw Refusal(fmt::format("checkpoint_period: must be from {} to {} s, found {}",
-                              kShortestCheckpointPeriod, kLongestCheckpointPeriod,
-                              s.checkpoint_period));
-  }
-  s.resume = privateParameter<std::string>("resume", "a checkpoint, or nothing", "");
-  if (scene.step < kShortestStep) {
+  if (scene.step < kMinStep) {
     throw Refusal(fmt::format("{}: step: must be >= {:g} s to run live, found {:g} s", scene.source,
-                              static_cast<double>(kShortestStep) * 1.0e-9, scene.stepSeconds()));
+                              static_cast<double>(kMinStep) * 1.0e-9, scene.stepSeconds()));
   }
-  s.loop.period = scene.step;
-  s.loop.mode = parseRealtimeMode(
-      privateParameter<std::string>("realtime", "enforce, warn or ignore", "warn"));
-  s.loop.priority = privateParameter("priority", "a whole number", 50);
-  s.loop.cpu = privateParameter("cpu", "a whole number", -1);
-  const double give_up = privateParameter("give_up", "a number of seconds", 0.0);
-  if (!(give_up >= 0.0 && give_up <= kLongestGiveUp)) {
-    throw Refusal(
-        fmt::format("give_up: must be from 0 (never) to {} s, found {}", kLongestGiveUp, give_up));
-  }
-  s.loop.give_up = std::llround(give_up * 1.0e9);
-  const double busy_wait = privateParameter("busy_wait", "a number of seconds", 0.0);
-  if (!(busy_wait >= 0.0 && busy_wait <= 0.5 * scene.stepSeconds())) {
+  if (p.busy_wait > 0.5 * scene.stepSeconds()) {
     throw Refusal(fmt::format("busy_wait: must be from 0 to {:g} s, half a step, found {}",
-                              0.5 * scene.stepSeconds(), busy_wait));
+                              0.5 * scene.stepSeconds(), p.busy_wait));
   }
-  s.loop.busy_wait =
-      std::min(std::llround(busy_wait * 1.0e9), static_cast<long long>(scene.step / 2));
-  s.loop.policy = parseOverrunPolicy(
-      privateParameter<std::string>("overrun", "skip, catch_up or stop", "skip"));
-  return s;
+}
+
+FixedRateLoop::Options loopOptions(const SimulationParameters& p, const Scene& scene) {
+  FixedRateLoop::Options loop;
+  loop.period = scene.step;
+  loop.mode = parseRealtimeMode(p.realtime);
+  loop.priority = p.priority;
+  loop.cpu = p.cpu;
+  loop.give_up = std::llround(p.give_up * 1.0e9);
+  loop.busy_wait =
+      std::min(std::llround(p.busy_wait * 1.0e9), static_cast<long long>(scene.step / 2));
+  loop.policy = parseOverrunPolicy(p.overrun);
+  return loop;
 }
 
 void run() {
@@ -190,14 +143,17 @@ void run() {
   usePlugins();
   const ParameterTree given = parameterTree(node, "scene");
   const Scene scene = withStepsChosen(readScene(given.tree, given.source));
-  const SimulationSettings settings = readSettings(scene);
+  SimulationParameters settings;
+  table(settings).read();
+  requireFits(settings, scene);
+  const std::int64_t every = stepsToPublish(scene, settings.publish_rate);
 
   // Half a second of records, or some: what the publisher may be late by.
   const auto capacity =
       static_cast<std::size_t>(std::max<std::int64_t>(64, 500'000'000 / scene.step));
   LiveTwin live(scene, std::min<std::size_t>(capacity, 100'000));
   live.setPace(settings.real_time_factor);
-  FixedRateLoop loop(settings.loop);
+  FixedRateLoop loop(loopOptions(settings, scene));
   const SceneLines lines = sceneLines(given.tree, live.twin());
   std::optional<Checkpoint> resumed;
   if (!settings.resume.empty()) {
@@ -212,13 +168,16 @@ void run() {
   if (settings.paused) {
     live.putBack(true);
   }
-  LockstepListeners lockstep(live, node, settings.lockstep);
+  LockstepListeners lockstep(live, node,
+                             lockstepSettings(settings.lockstep, settings.lockstep_ahead,
+                                              settings.lockstep_timeout, every));
   RecordPublisher publisher(
       live, loop,
       StatePublisher(live.twin(), live.ensembles(), node,
                      LcmPublisher(settings.lcm_url, settings.lcm_prefix),
                      settings.clock ? std::llround(1.0e9 / settings.clock_rate) : 0),
-      lockstep, sceneText(given.tree, given.source), settings.every, settings.batch, settings.clock,
+      lockstep, sceneText(given.tree, given.source), every,
+      std::chrono::microseconds(std::llround(settings.batch * 1.0e6)), settings.clock,
       settings.measure);
   if (resumed) {
     publisher.putBack(*resumed, settings.resume);
@@ -335,5 +294,6 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  return whirl_twin::runNode(argc, argv, "simulation_node", whirl_twin::kHelp, whirl_twin::run);
+  return whirl_twin::runNode(argc, argv, "simulation_node", whirl_twin::helpOf(whirl_twin::table),
+                             whirl_twin::run);
 }

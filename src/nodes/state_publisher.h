@@ -4,15 +4,28 @@
 
 #include <ros/ros.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
+#include "nodes/node_parameters.h"
+#include "scene/scene.h"
 #include "transport/lcm_publisher.h"
 #include "transport/ros_topics.h"
 #include "twin/ensemble_observer.h"
 #include "twin/step_messages.h"
 
 namespace whirl_twin {
+
+/// [Hz], that a node can publish states at.
+inline const ParameterRange kPublishRates{1.0e-3, HUGE_VAL, "Hz", "every step"};
+
+/// Steps of the scene from one publication to the next.
+inline std::int64_t stepsToPublish(const Scene& scene, double rate) {
+  return rate == 0.0 ? 1
+                     : std::max<std::int64_t>(1, std::llround(1.0 / (rate * scene.stepSeconds())));
+}
 
 class StatePublisher {
  public:

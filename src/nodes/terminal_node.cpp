@@ -12,16 +12,11 @@
 #include "display/terminal_text.h"
 #include "display/twin_listener.h"
 #include "messages/names.h"
-#include "nodes/node_help.h"
+#include "nodes/node_parameters.h"
 #include "transport/master_watch.h"
 
 namespace whirl_twin {
 namespace {
-
-constexpr const char* kHelp =
-    "usage: terminal_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "The state of a twin in a terminal: a line for each system, rewritten in place; alerts "
-    "remain.\nTo a file or a pipe one line per second is written. It has no parameters.\n";
 
 class TerminalDisplay {
  public:
@@ -119,7 +114,11 @@ class TerminalDisplay {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  if (whirl_twin::toldHelp(argc, argv, whirl_twin::kHelp)) {
+  const whirl_twin::NodeParameters none(
+      "terminal_node",
+      "The state of a twin in a terminal: a line for each system, rewritten in place; alerts "
+      "remain.\nTo a file or a pipe one line per second is written. It has no parameters.");
+  if (whirl_twin::printsHelp(argc, argv, none.help())) {
     return 0;
   }
   ros::init(argc, argv, "terminal_node", ros::init_options::AnonymousName);

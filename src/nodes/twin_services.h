@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "messages/input_command.h"
-#include "twin/live_checkpoint.h"
+#include "messages/commands.h"
+#include "twin/checkpoint.h"
 #include "twin/live_parameters.h"
 #include "twin/live_twin.h"
 
@@ -39,7 +39,7 @@ class TwinServices {
   bool ramping() const { return parameters_.ramping(); }
   void continueRamps();
 
-  // Of checkpoints (twin/live_checkpoint.h).
+  // Of checkpoints (twin/checkpoint.h).
 
   /// Between two calls of services.
   bool take(Checkpoint& out) {

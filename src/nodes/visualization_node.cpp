@@ -23,8 +23,7 @@
 #include "display/twin_panel.h"
 #include "display/vibration_limits.h"
 #include "messages/refusal.h"
-#include "nodes/node_help.h"
-#include "nodes/private_parameter.h"
+#include "nodes/node_parameters.h"
 #include "plugins/plugins.h"
 #include "transport/master_watch.h"
 #include "transport/twin_namespace.h"
@@ -32,36 +31,26 @@
 namespace whirl_twin {
 namespace {
 
-constexpr const char* kHelp =
-    "usage: visualization_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
-    "Shows the states of a twin in rviz: markers and tf frames of its systems, margins and "
-    "alarms.\n"
-    "\n"
-    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
-    "  ~rate         Hz, default 30: frames per second\n"
-    "  ~whirl_scale  magnification of the whirl, default 0: chosen automatically\n"
-    "  ~trail_turns  revolutions, default 3: length of the orbit's trail\n"
-    "  ~monitor      the node whose limits are drawn, default monitor_node\n";
+struct DisplayParameters {
+  double rate = 30.0, whirl_scale = 0.0, trail_turns = 3.0;
+  std::string monitor = "monitor_node";
+};
+
+NodeParameters table(DisplayParameters& p) {
+  NodeParameters all(
+      "visualization_node",
+      "Shows the states of a twin in rviz: markers and tf frames of its systems, margins and "
+      "alarms.");
+  all.number("rate", p.rate, {1.0e-3, 1000.0, "Hz"}, "frames per second")
+      .number("whirl_scale", p.whirl_scale, {1.0e-9, 1.0e12, "", "chosen automatically"},
+              "magnification of the whirl")
+      .number("trail_turns", p.trail_turns, {1.0e-3, 1.0e6, "revolutions"},
+              "length of the orbit's trail")
+      .text("monitor", p.monitor, "", "the node whose limits are drawn");
+  return all;
+}
 
 const ros::WallDuration kMeasuredFor(1.0);  // what was measured is shown
-
-/// Reads a private parameter that has to be a number above (or, if allowed, at) zero.
-double positiveParameter(const char* name, const char* unit, double fallback, bool zero_allowed) {
-  const ros::NodeHandle node("~");
-  if (!node.hasParam(name)) {
-    return fallback;
-  }
-  const std::string expected = fmt::format("{}: must be a number {} 0 {}", node.resolveName(name),
-                                           zero_allowed ? ">=" : ">", unit);
-  double value = 0.0;
-  if (!node.getParam(name, value)) {
-    throw Refusal(expected + ", found another type");
-  }
-  if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_allowed)) {
-    throw Refusal(fmt::format("{}, found {}", expected, value));
-  }
-  return value;
-}
 
 geometry_msgs::TransformStamped stampedTransform(const std::string& parent,
                                                  const std::string& child, const ros::Time& stamp,
@@ -83,12 +72,11 @@ geometry_msgs::TransformStamped stampedTransform(const std::string& parent,
 
 class VisualizationNode {
  public:
-  VisualizationNode()
-      : whirl_scale_(positiveParameter("whirl_scale", "(0: automatic)", 0.0, true)),
-        trail_turns_(positiveParameter("trail_turns", "turns", 3.0, false)),
-        rate_(positiveParameter("rate", "Hz", 30.0, false)),
-        monitor_(ros::names::resolve(
-            privateParameter<std::string>("monitor", "must be a name", "monitor_node"))) {
+  explicit VisualizationNode(const DisplayParameters& parameters)
+      : whirl_scale_(parameters.whirl_scale),
+        trail_turns_(parameters.trail_turns),
+        rate_(parameters.rate),
+        monitor_(ros::names::resolve(parameters.monitor)) {
     ros::NodeHandle node;
     publisher_ = node.advertise<visualization_msgs::MarkerArray>(twinNamespace() + "/markers", 2);
     listener_.onWhirl([this](const std::string& published, const WhirlState& state) {
@@ -361,15 +349,17 @@ class VisualizationNode {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  if (whirl_twin::toldHelp(argc, argv, whirl_twin::kHelp)) {
+  whirl_twin::DisplayParameters parameters;
+  const whirl_twin::NodeParameters table = whirl_twin::table(parameters);
+  if (whirl_twin::printsHelp(argc, argv, table.help())) {
     return 0;
   }
   ros::init(argc, argv, "visualization_node");
   ros::NodeHandle node;  // keeps ROS up while the parameters are read
   try {
     whirl_twin::usePlugins();
-    whirl_twin::requireKnownParameters({"whirl_scale", "trail_turns", "rate", "monitor"});
-    whirl_twin::VisualizationNode visualization;
+    table.read();
+    const whirl_twin::VisualizationNode visualization(parameters);
     const whirl_twin::MasterWatch master;
     ros::spin();
   } catch (const whirl_twin::Refusal& error) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/critical_speed_map.h"
+#include "analysis/undamped_critical_speeds.h"
 #include "plots/chart.h"
 #include "reports/csv_table.h"
 #include "reports/rotor_systems.h"

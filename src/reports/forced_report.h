@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/forced_response.h"
+#include "analysis/frequency_response.h"
 #include "plots/chart.h"
 #include "reports/csv_table.h"
 #include "reports/rotor_systems.h"

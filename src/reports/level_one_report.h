@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/alford.h"
 #include "analysis/cross_coupling_margin.h"
 #include "plots/chart.h"
 #include "reports/csv_table.h"

@@ -5,8 +5,8 @@
 #include "reports/output.h"
 #include "reports/sample_writer.h"
 #include "transport/lcm_event_log.h"
-#include "transport/mcap_log.h"
-#include "twin/ensemble_statistics.h"
+#include "transport/mcap_writer.h"
+#include "twin/ensemble_observer.h"
 #include "twin/order_observer.h"
 #include "twin/step_messages.h"
 

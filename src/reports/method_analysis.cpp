@@ -5,15 +5,10 @@
 #include <exception>
 
 #include "algebra/dense.h"
-#include "analysis/assumed_modes.h"
-#include "analysis/dunkerley.h"
+#include "analysis/approximate_frequencies.h"
 #include "analysis/frequency_response.h"
-#include "analysis/influence_coefficients.h"
-#include "analysis/matrix_iteration.h"
 #include "analysis/natural_modes.h"
-#include "analysis/rayleigh_quotient.h"
-#include "analysis/rigid_body_modes.h"
-#include "analysis/routh_conditions.h"
+#include "analysis/routh_table.h"
 #include "analysis/validity.h"
 #include "messages/refusal.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/quadratic_form.h"
-#include "analysis/routh_result.h"
+#include "analysis/routh.h"
 #include "reports/output.h"
 #include "reports/system_analysis.h"
 

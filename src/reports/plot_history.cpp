@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "algebra/constants.h"
-#include "twin/ensemble_statistics.h"
+#include "twin/ensemble_observer.h"
 
 namespace whirl_twin {
 

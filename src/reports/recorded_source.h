@@ -11,8 +11,8 @@
 #include "control/keyphasor.h"
 #include "messages/measurement.h"
 #include "scene/scene.h"
+#include "signal/outliers.h"
 #include "signal/shaft_tracker.h"
-#include "signal/wild_samples.h"
 
 namespace whirl_twin {
 

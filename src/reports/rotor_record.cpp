@@ -12,7 +12,7 @@
 #include "estimation/measured_queue.h"
 #include "messages/refusal.h"
 #include "reports/recorded_source.h"
-#include "scene/station_names.h"
+#include "scene/signal_names.h"
 #include "transport/logged_messages.h"
 
 namespace whirl_twin {

@@ -17,7 +17,7 @@
 #include "reports/table_speeds.h"
 #include "scene/held_rotor.h"
 #include "scene/part_of_scene.h"
-#include "scene/station_names.h"
+#include "scene/signal_names.h"
 #include "transport/channels.h"
 #include "twin/step_messages.h"
 

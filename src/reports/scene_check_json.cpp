@@ -1,5 +1,5 @@
 #include "reports/scene_check.h"
-#include "scene/drive_profile.h"
+#include "scene/drive_reader.h"
 #include "scene/weak_passage.h"
 
 namespace whirl_twin {

@@ -6,7 +6,7 @@
 #include "messages/names.h"
 #include "reports/asked_cost.h"
 #include "reports/scene_check.h"
-#include "scene/drive_profile.h"
+#include "scene/drive_reader.h"
 #include "scene/weak_passage.h"
 
 namespace whirl_twin {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "analysis/cross_coupling_margin.h"
-#include "analysis/decrement_amplitude.h"
 #include "analysis/equilibria.h"
 #include "analysis/stability.h"
+#include "analysis/validity.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/rotors/rotor_assembly.h"
 #include "messages/stability_margin.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/routh_result.h"
+#include "analysis/routh.h"
 
 namespace whirl_twin {
 

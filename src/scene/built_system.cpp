@@ -9,7 +9,7 @@
 #include "scene/node_reader.h"
 #include "scene/parameter_limits.h"
 #include "scene/parameter_paths.h"
-#include "scene/station_names.h"
+#include "scene/signal_names.h"
 
 namespace whirl_twin {
 

@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "control/counter_noise.h"
-#include "control/sample_instants.h"
+#include "control/sensor.h"
 #include "scene/scene.h"
 
 namespace whirl_twin {

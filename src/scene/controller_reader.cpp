@@ -49,8 +49,9 @@ class InputNames {
       return places_[static_cast<std::size_t>(found - names_.begin())];
     }
     const std::string near = nearestName(name, names_);
-    complaints.add(key, fmt::format("must be an input of a system, found {}{}", quoted(name),
-                                    near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    complaints.add(key,
+                   fmt::format("must be an input of a system, found {}{}", whirl_twin::quoted(name),
+                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
     return std::nullopt;
   }
 
@@ -103,7 +104,7 @@ void readMeasured(const MapReader& map, const SignalNames& signals, ControllerSp
         complaints.add(
             key + ".direction",
             fmt::format("needs a rotor or a station of one; the direction of {} is fixed",
-                        quoted(name)));
+                        whirl_twin::quoted(name)));
       }
     }
     if (found) {
@@ -129,7 +130,7 @@ void readActedOn(const MapReader& map, Scene& scene, ControllerSpec& controller,
     const std::string input = system.setup->made.dynamics->inputs()[found->input].name;
     const auto signal = system.inputs.find(input);
     if (signal != system.inputs.end()) {
-      complaints.add(key, fmt::format("{} is already {}", quoted(name),
+      complaints.add(key, fmt::format("{} is already {}", whirl_twin::quoted(name),
                                       signal->second.kind == InputSignal::Kind::kControlled
                                           ? "acted on by a controller"
                                           : "given by the system's inputs"));

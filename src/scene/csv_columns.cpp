@@ -69,7 +69,8 @@ void requireDifferent(const std::vector<std::string>& header) {
   std::vector<std::string> repeated;
   for (const auto& [name, numbers] : columns) {
     if (!name.empty() && numbers.size() > 1) {
-      repeated.push_back(fmt::format("columns {} are named {}", listed(numbers), quoted(name)));
+      repeated.push_back(
+          fmt::format("columns {} are named {}", listed(numbers), whirl_twin::quoted(name)));
     }
   }
   if (repeated.size() > kMostTold) {
@@ -125,7 +126,8 @@ std::vector<std::vector<double>> csvColumns(const std::string& path,
   for (const std::string& name : names) {
     const auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end()) {
-      throw Refusal(fmt::format("no column {}{}", quoted(name), printable(hint(name, header))));
+      throw Refusal(
+          fmt::format("no column {}{}", whirl_twin::quoted(name), printable(hint(name, header))));
     }
     places.push_back(static_cast<std::size_t>(found - header.begin()));
   }
@@ -140,9 +142,10 @@ std::vector<std::vector<double>> csvColumns(const std::string& path,
       const std::optional<double> value =
           places[i] < values.size() ? parseNumber(values[places[i]]) : std::nullopt;
       if (!value) {
-        throw Refusal(fmt::format(
-            "line {}: {} must be a finite number, found {}", row, printable(names[i]),
-            places[i] < values.size() ? quoted(values[places[i]]) : std::string("nothing")));
+        throw Refusal(fmt::format("line {}: {} must be a finite number, found {}", row,
+                                  printable(names[i]),
+                                  places[i] < values.size() ? whirl_twin::quoted(values[places[i]])
+                                                            : std::string("nothing")));
       }
       columns[i].push_back(*value);
     }

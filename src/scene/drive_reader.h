@@ -4,11 +4,20 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "scene/node_reader.h"
 #include "scene/scene.h"
 
 namespace whirl_twin {
+
+// How long the moves of a drive last.
+
+/// Duration [s] of the change of speed of each move of a drive's profile, without the dwell.
+std::vector<double> changeDurations(const DriveSpec& drive);
+
+/// Duration [s] of the whole profile, dwells included; 0 for a drive without one.
+double profileDuration(const DriveSpec& drive);
 
 /// The drive `name` under `key`; start [ns] is the scene's. Complains of everything that does not
 /// fit.

@@ -11,7 +11,6 @@
 #include "messages/names.h"
 #include "scene/ensemble_draw.h"
 #include "scene/parameter_paths.h"
-#include "scene/spread_correlations.h"
 
 namespace whirl_twin {
 

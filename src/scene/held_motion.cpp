@@ -7,7 +7,7 @@
 
 #include "algebra/dense.h"
 #include "analysis/cyclic_coordinates.h"
-#include "analysis/mass_matrix.h"
+#include "analysis/natural_modes.h"
 #include "mechanics/held_inputs.h"
 #include "scene/controlled_plant.h"
 

@@ -8,7 +8,7 @@
 
 #include "messages/names.h"
 #include "messages/units.h"
-#include "scene/number_range.h"
+#include "scene/parameter_limits.h"
 
 namespace whirl_twin {
 

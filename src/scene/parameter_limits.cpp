@@ -3,13 +3,110 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <limits>
 
-#include "analysis/mass_matrix.h"
+#include "analysis/natural_modes.h"
+#include "messages/names.h"
+#include "models/model_info.h"
 
 namespace whirl_twin {
+
+namespace {
+
+struct Elsewhere {
+  const char* theirs;
+  const char* ours;
+};
+
+/// What other programs and books call it.
+constexpr std::array<Elsewhere, 27> kElsewhere = {{{"E", "youngs_modulus"},
+                                                   {"elastic_modulus", "youngs_modulus"},
+                                                   {"G", "shear_modulus"},
+                                                   {"G_s", "shear_modulus"},
+                                                   {"nu", "poissons_ratio"},
+                                                   {"rho", "density"},
+                                                   {"L", "length"},
+                                                   {"l", "length"},
+                                                   {"od", "outer_diameter"},
+                                                   {"odl", "outer_diameter"},
+                                                   {"odr", "outer_diameter_end"},
+                                                   {"id", "inner_diameter"},
+                                                   {"idl", "inner_diameter"},
+                                                   {"idr", "inner_diameter_end"},
+                                                   {"n", "node"},
+                                                   {"m", "mass"},
+                                                   {"Ip", "polar_inertia"},
+                                                   {"Jp", "polar_inertia"},
+                                                   {"Id", "transverse_inertia"},
+                                                   {"It", "transverse_inertia"},
+                                                   {"alpha", "mass_damping"},
+                                                   {"beta", "stiffness_damping"},
+                                                   {"rpm", "speed"},
+                                                   {"material", "materials"},
+                                                   {"n_link", "pedestals"},
+                                                   {"supports", "pedestals"},
+                                                   {"foundation", "pedestals"}}};
+
+/// "" of a name that is nothing elsewhere, or nothing that there is here.
+std::string nameHere(const std::string& name, const std::vector<std::string>& known) {
+  const auto* const found =
+      std::find_if(kElsewhere.begin(), kElsewhere.end(),
+                   [&](const Elsewhere& word) { return name == word.theirs; });
+  if (found == kElsewhere.end()) {
+    return "";
+  }
+  const std::string ours = found->ours;
+  // What stands on what is told by a table of its own, not where another program has it.
+  const bool has =
+      ours == "pedestals" || std::find(known.begin(), known.end(), ours) != known.end();
+  return has ? ours : "";
+}
+
+}  // namespace
+
+std::string expected(Range range, const std::string& unit) {
+  if (range == Range::kAny) {
+    return fmt::format("a finite number{}", unit == "-" ? "" : " in " + unit);
+  }
+  return describe(range) + (unit == "-" ? "" : " " + unit);
+}
+
+bool inRange(Range range, double value) {
+  switch (range) {
+    case Range::kPositive:
+      return std::isfinite(value) && value > 0.0;
+    case Range::kNotNegative:
+      return std::isfinite(value) && value >= 0.0;
+    case Range::kCount:
+      return value >= 1.0 && value <= 1.0e6 && value == std::floor(value);
+    case Range::kAny:
+      break;
+  }
+  return std::isfinite(value);
+}
+
+std::string objection(Range range, const std::string& unit, double value) {
+  return inRange(range, value)
+             ? ""
+             : fmt::format(std::isfinite(value) ? "must be {}, found {}" : "must be {}, found '{}'",
+                           expected(range, unit), value);
+}
+
+std::string objectionToName(const std::string& name, const std::vector<std::string>& known,
+                            const std::string& kind) {
+  if (std::find(known.begin(), known.end(), name) != known.end()) {
+    return "";
+  }
+  if (const std::string here = nameHere(name, known); !here.empty()) {
+    return fmt::format("unknown {}; write '{}'", kind, here);
+  }
+  const std::string near = nearestName(name, known);
+  return fmt::format("unknown {}{}", kind,
+                     near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
+}
 
 namespace {
 

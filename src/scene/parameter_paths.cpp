@@ -6,7 +6,7 @@
 #include <charconv>
 #include <type_traits>
 
-#include "scene/number_range.h"
+#include "scene/parameter_limits.h"
 
 namespace whirl_twin {
 

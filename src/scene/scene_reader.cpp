@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "analysis/mass_matrix.h"
+#include "analysis/natural_modes.h"
 #include "analysis/validity.h"
 #include "messages/names.h"
 #include "models/model_registry.h"
@@ -25,7 +25,6 @@
 #include "scene/sensor_reader.h"
 #include "scene/shaft_reader.h"
 #include "scene/signal_names.h"
-#include "scene/station_names.h"
 #include "scene/surroundings.h"
 #include "scene/system_setup.h"
 #include "scene/yaml_file.h"

@@ -49,7 +49,7 @@ SensorChannelSpec readChannel(const YAML::Node& node, const std::string& key,
         complaints.add(
             map.key("direction"),
             fmt::format("needs a rotor or a station of one; the direction of {} is fixed",
-                        quoted(measured)));
+                        whirl_twin::quoted(measured)));
       }
     }
   }

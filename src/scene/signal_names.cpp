@@ -9,6 +9,20 @@
 
 namespace whirl_twin {
 
+std::string stationName(const std::string& system, const Station& station) {
+  return system + "_" + station.name;
+}
+
+std::vector<std::string> publishedStations(const std::string& system, const Dynamics& dynamics) {
+  std::vector<std::string> names{system};
+  for (const Station& station : dynamics.stations()) {
+    if (station.published) {
+      names.push_back(stationName(system, station));
+    }
+  }
+  return names;
+}
+
 namespace {
 
 constexpr double kHalfPi = 1.57079632679489661923;
@@ -79,10 +93,10 @@ std::optional<NamedSignal> SignalNames::find(const std::string& name, const std:
     names.push_back(known.name);
   }
   const std::string near = nearestName(name, names);
-  complaints.add(
-      key,
-      fmt::format("must be a coordinate, a rate or a station of a system, found {}{}", quoted(name),
-                  near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  complaints.add(key,
+                 fmt::format("must be a coordinate, a rate or a station of a system, found {}{}",
+                             whirl_twin::quoted(name),
+                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
   return std::nullopt;
 }
 

@@ -14,6 +14,38 @@
 
 namespace whirl_twin {
 
+// Fewer samples a second without folding: a low-pass of finite length, then every so-many-th
+// sample. Of finite length because it adds no poles: covariances at lags beyond its length are
+// those of the motion, and what it makes of white noise has ended by then.
+
+class Decimator {
+ public:
+  /// Of samples `period` [s] apart; what is below `limit` [rad/s] stays. At least 4 samples a cycle
+  /// of the limit come out where as many go in; where fewer than 8 do, all of them, not filtered.
+  Decimator(double period, double limit);
+
+  /// The next sample; is there one that comes out?
+  bool take(const Eigen::VectorXcd& z);
+  const Eigen::VectorXcd& out() const { return out_; }
+  /// The next sample does not follow the last one.
+  void interrupt() { kept_ = 0; }
+
+  double spacing() const {
+    return period_ * static_cast<double>(stride_);
+  }  ///< [s], what comes out
+  bool filters() const { return stride_ > 1; }
+
+ private:
+  double period_;
+  std::size_t stride_;
+  std::vector<double> taps_;
+  std::vector<Eigen::VectorXcd> ring_;
+  std::size_t newest_ = 0;
+  std::size_t kept_ = 0;   // samples in the ring that follow one another
+  std::size_t since_ = 0;  // that came in after the last that came out
+  Eigen::VectorXcd out_;
+};
+
 class LaggedCovariance {
  public:
   using Sums = std::vector<Eigen::MatrixXcd>;  ///< a lag each

@@ -15,8 +15,8 @@
 
 #include "messages/measurement.h"
 #include "signal/orbit_window.h"
+#include "signal/outliers.h"
 #include "signal/shaft_tracker.h"
-#include "signal/wild_samples.h"
 
 namespace whirl_twin {
 

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "messages/order_state.h"
 #include "signal/orbit_window.h"
 #include "signal/order_vector.h"
 
@@ -63,5 +64,10 @@ class OrderFilter {
   OrbitWindow window_;
   std::vector<double> orders_;
 };
+
+// What an order filter has found, as the message that tells it.
+
+/// Without system and instant.
+state::OrderState toldOrders(const OrbitEstimate& estimate);
 
 }  // namespace whirl_twin

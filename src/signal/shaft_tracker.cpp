@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "algebra/constants.h"
-#include "signal/robust_scale.h"
+#include "signal/outliers.h"
 
 namespace whirl_twin {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "monitoring/watched_kinds.h"
 
 namespace whirl_twin {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scene/station_names.h"
+#include "scene/signal_names.h"
 
 namespace whirl_twin {
 

@@ -15,6 +15,7 @@
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/report_options.h"
 #include "tools/shipped_scenes.h"
 #include "tools/simulation.h"
 
@@ -203,12 +204,7 @@ int analyzeScene(const AnalyzeRequest& request) {
   if (request.csv) {
     writeCsv(*request.csv, csv);
   }
-  if (request.json) {
-    printJson(all);
-  } else {
-    printText(report);
-  }
-  return kDone;
+  return printReport(request.json, all, report);
 }
 
 }  // namespace
@@ -231,7 +227,7 @@ void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
   command.flag("--parameters", request->all_parameters,
                "compute the instability points of the parameters also where that takes minutes");
   addCsvOption(command, request->csv);
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   addInsistOption(command, request->insist);
   command.footer(kAnalyzeFooter);
   command.callback([request, &status] { status = analyzeScene(*request); });

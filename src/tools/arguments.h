@@ -10,6 +10,15 @@
 
 namespace whirl_twin {
 
+// --channel: which channels of a log, or topics of a bag, a command is about.
+
+/// Patterns as the shell has them, *, ? and [...]; none means all.
+using ChannelFilter = std::vector<std::string>;
+
+void addChannelOption(const ProgramCommand& command, ChannelFilter& filter);
+
+bool selects(const ChannelFilter& filter, const std::string& channel);
+
 /// The scene that a command is about.
 void addSceneOption(const ProgramCommand& command, std::string& scene);
 

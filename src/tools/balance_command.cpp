@@ -13,6 +13,7 @@
 #include "tools/arguments.h"
 #include "tools/balancing_runs.h"
 #include "tools/commands.h"
+#include "tools/report_options.h"
 #include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
@@ -160,12 +161,8 @@ int balanceRuns(const BalanceRequest& request) {
   if (request.csv) {
     writeCsv(*request.csv, balanceTables(runs, correction));
   }
-  if (request.json) {
-    printJson(balanceJson(runs, correction, spread));
-  } else {
-    printText(balanceText(runs, correction, spread));
-  }
-  return kDone;
+  return printReport(request.json, balanceJson(runs, correction, spread),
+                     balanceText(runs, correction, spread));
 }
 
 int balanceMeasured(const BalanceRequest& request) {
@@ -184,12 +181,7 @@ int balanceMeasured(const BalanceRequest& request) {
   if (request.csv) {
     writeCsv(*request.csv, tables(report));
   }
-  if (request.json) {
-    printJson(json(report));
-  } else {
-    printText(text(report));
-  }
-  return kDone;
+  return printReport(request.json, json(report), text(report));
 }
 
 }  // namespace
@@ -220,7 +212,7 @@ void addBalanceCommand(const ProgramCommand& twin, int& status) {
                        "prefix of the log's channels; default: TWIN_")
                .type("PREFIX"));
   addCsvOption(command, request->csv);
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   command.footer(kBalanceFooter);
   command.callback([request, &status] {
     requireCsvName(request->csv);

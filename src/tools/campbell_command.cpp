@@ -5,13 +5,10 @@
 #include "messages/refusal.h"
 #include "reports/asked_cost.h"
 #include "reports/campbell_report.h"
-#include "reports/picture_file.h"
-#include "reports/rotor_systems.h"
-#include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
-#include "tools/shipped_scenes.h"
+#include "tools/report_options.h"
 
 namespace whirl_twin {
 
@@ -32,12 +29,10 @@ constexpr const char* kCampbellFooter =
     "  twin campbell demo --system rotor --harmonic 1 2 --csv campbell.csv";
 
 struct CampbellCommandRequest {
-  std::string scene;
-  std::optional<std::string> system, plot, csv;
+  ReportOptions options;
   SpeedRangeOptions range;
   std::vector<double> harmonics{1.0};
   int modes = 12;
-  bool json = false;
   bool insist = false;
 };
 
@@ -54,46 +49,29 @@ void requireNumbers(const CampbellCommandRequest& request) {
 }
 
 int campbellOf(const CampbellCommandRequest& request) {
-  requirePictureName(request.plot);
-  requireCsvName(request.csv);
   requireNumbers(request);
-  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
-  const auto systems = rotorSystems(scene, request.system);
+  const BuiltScene scene = sceneOf(request.options);
+  const auto rotors = rotorSystems(scene, request.options.system);
   AskedCost cost;
-  for (const RotorSystem& system : systems) {
-    cost += costOfCampbell(system.name, system.dynamics->dof(), request.range.points);
+  for (const RotorSystem& rotor : rotors) {
+    cost += costOfCampbell(rotor.name, rotor.dynamics->dof(), request.range.points);
   }
   tell(cost, request.insist);
-  Json all;
-  all["scene"] = scene.scene.name;
-  std::string report;
-  CsvTables csv;
-  ProgressBar bar(cost.cause, static_cast<std::int64_t>(systems.size()) * request.range.points,
+  ProgressBar bar(cost.cause, static_cast<std::int64_t>(rotors.size()) * request.range.points,
                   false, request.insist);
-  std::int64_t before = 0;  // speeds of the systems that are done
-  for (const RotorSystem& system : systems) {
-    const CampbellReport one = campbellReport(
-        system, request.range.of(system), request.harmonics,
-        static_cast<std::size_t>(request.modes),
+  std::int64_t before = 0;  // speeds of the rotors that are done
+  const auto report = [&](const RotorSystem& rotor) {
+    CampbellReport one = campbellReport(
+        rotor, request.range.of(rotor), request.harmonics, static_cast<std::size_t>(request.modes),
         [&](std::size_t done) { bar.show(before + static_cast<std::int64_t>(done)); });
     before += request.range.points;
-    all["systems"][system.name] = json(one);
-    append(csv, system.name, tables(one));
-    report += (report.empty() ? "" : "\n") + text(one);
-    if (request.plot) {
-      writePicture(pictureName(*request.plot, system.name, systems.size() > 1), figure(one));
+    if (before == static_cast<std::int64_t>(rotors.size()) * request.range.points) {
+      bar.clear();
     }
-  }
-  bar.clear();
-  if (request.csv) {
-    writeCsv(*request.csv, csv);
-  }
-  if (request.json) {
-    printJson(all);
-  } else {
-    printText(report);
-  }
-  return kDone;
+    return one;
+  };
+  return reportRotors(request.options, scene, rotors, report,
+                      [](const CampbellReport& one) { return figure(one); });
 }
 
 }  // namespace
@@ -101,17 +79,13 @@ int campbellOf(const CampbellCommandRequest& request) {
 void addCampbellCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("campbell", kCampbellDescription);
   const auto request = std::make_shared<CampbellCommandRequest>();
-  addSceneOption(command, request->scene);
-  command.option("--system", request->system, "only this rotor").type("NAME");
+  addReportOptions(command, request->options, "the diagram");
   command.option("--from", request->range.from, "rad/s; default: 0").type("W");
   command.option("--to", request->range.to, "rad/s; default: 1.2 times the drive's highest speed")
       .type("W");
   command.option("--points", request->range.points, "number of speeds; default: 200").type("N");
   command.option("--harmonic", request->harmonics, "multiples of the speed; default: 1").type("H");
   command.option("--modes", request->modes, "number of lowest modes; default: 12").type("N");
-  command.option("--plot", request->plot, "the diagram, FILE.svg or FILE.png").type("FILE");
-  addCsvOption(command, request->csv);
-  command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
   command.footer(kCampbellFooter);
   command.callback([request, &status] { status = campbellOf(*request); });

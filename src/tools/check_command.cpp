@@ -6,6 +6,7 @@
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/report_options.h"
 #include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
@@ -36,12 +37,7 @@ int check(const CheckRequest& request) {
   const std::vector<std::size_t> systems = selectedSystems(scene, request.system);
   tell(costOfCheck(scene, systems), request.insist);
   const SceneCheck result = checkScene(scene, systems);
-  if (request.json) {
-    printJson(json(result));
-  } else {
-    printText(text(result));
-  }
-  return kDone;
+  return printReport(request.json, json(result), text(result));
 }
 
 }  // namespace

@@ -10,10 +10,10 @@
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "tools/arguments.h"
-#include "tools/channel_filter.h"
 #include "tools/commands.h"
 #include "tools/new_output.h"
 #include "tools/progress_bar.h"
+#include "tools/report_options.h"
 #include "transport/bag_writer.h"
 #include "transport/log_export.h"
 #include "transport/mcap_writer.h"
@@ -216,12 +216,8 @@ int exportLogFile(const ExportRequest& request) {
         "--compress: built without lz4 (liblz4-dev): run `scripts/setup`, then build again");
   }
   const LogExport log = Export(request).run();
-  if (request.json) {
-    printJson(exportJson(request, log, output));
-  } else {
-    printText(exportText(request, log, output));
-  }
-  return kDone;
+  return printReport(request.json, exportJson(request, log, output),
+                     exportText(request, log, output));
 }
 
 }  // namespace
@@ -242,7 +238,7 @@ void addExportCommand(const ProgramCommand& twin, int& status) {
               "prefix of the recorded twin's channels; default: TWIN_")
       .type("PREFIX");
   command.flag("--force", request->force, "overwrite existing files");
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   command.footer(kExportFooter);
   command.callback([request, &status] { status = exportLogFile(*request); });
 }

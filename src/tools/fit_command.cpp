@@ -15,6 +15,7 @@
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
+#include "tools/report_options.h"
 #include "transport/channels.h"
 
 namespace whirl_twin {
@@ -147,7 +148,7 @@ void addFitCommand(const ProgramCommand& twin, int& status) {
   command.flag("--check", request->check,
                "fit nothing: report anomalies of the runs, with their rows");
   addCsvOption(command, request->csv);
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   addInsistOption(command, request->insist);
   command.footer(kFitFooter);
   command.callback([request, &status] { status = fit(*request); });

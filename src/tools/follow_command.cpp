@@ -4,13 +4,14 @@
 #include <memory>
 #include <optional>
 
-#include "estimation/follow_settings_reader.h"
+#include "estimation/follow_settings.h"
 #include "estimation/followed_scene.h"
 #include "reports/followed_log.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
+#include "tools/report_options.h"
 #include "tools/shipped_scenes.h"
 #include "transport/channels.h"
 #include "twin/scene_lines.h"
@@ -103,12 +104,7 @@ int follow(const FollowRequest& request) {
   if (writer) {
     writer->finish();
   }
-  if (request.json) {
-    printJson(json(run));
-  } else {
-    printText(text(run));
-  }
-  return kDone;
+  return printReport(request.json, json(run), text(run));
 }
 
 }  // namespace
@@ -136,7 +132,7 @@ void addFollowCommand(const ProgramCommand& twin, int& status) {
       .option("--lcm-prefix", request->lcm_prefix,
               "prefix of the machine's channels; default: TWIN_")
       .type("PREFIX");
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   addInsistOption(command, request->insist);
   command.footer(kFollowFooter);
   command.callback([request, &status] { status = follow(*request); });

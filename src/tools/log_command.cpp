@@ -9,6 +9,7 @@
 #include "reports/csv_table.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/report_options.h"
 #include "transport/bag_scan.h"
 #include "transport/lcm_event_log.h"
 
@@ -187,7 +188,7 @@ void addLogCommand(const ProgramCommand& twin, int& status) {
               "prefix of the recorded twin's channels; default: TWIN_")
       .type("PREFIX");
   addCsvOption(command, request->csv);
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   command.footer(kLogFooter);
   command.callback([request, &status] { status = summarize(*request); });
 }

@@ -7,6 +7,7 @@
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/report_options.h"
 #include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
@@ -55,12 +56,7 @@ int loopsOf(const LoopRequest& request) {
                    figure(controller));
     }
   }
-  if (request.json) {
-    printJson(json(report));
-  } else {
-    printText(text(report));
-  }
-  return kDone;
+  return printReport(request.json, json(report), text(report));
 }
 
 }  // namespace
@@ -73,7 +69,7 @@ void addLoopCommand(const ProgramCommand& twin, int& status) {
       .option("--speed", request->speed, "speed of all shafts [rad/s]; default: that at the start")
       .type("W");
   command.option("--plot", request->plot, "the diagrams, FILE.svg or FILE.png").type("FILE");
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   command.footer(kLoopFooter);
   command.callback([request, &status] { status = loopsOf(*request); });
 }

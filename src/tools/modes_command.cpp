@@ -3,12 +3,9 @@
 
 #include "messages/refusal.h"
 #include "reports/modes_report.h"
-#include "reports/picture_file.h"
 #include "reports/rotor_record.h"
-#include "scene/scene_reader.h"
-#include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/shipped_scenes.h"
+#include "tools/report_options.h"
 
 namespace whirl_twin {
 
@@ -31,12 +28,11 @@ constexpr const char* kModesFooter =
     "  twin modes balancing --measured run.lcmlog --json";
 
 struct ModesRequest {
-  std::string scene;
-  std::optional<std::string> system, measured, plot, csv;
+  ReportOptions options;
+  std::optional<std::string> measured;
   std::optional<double> speed, limit;
   int modes = 6;
   std::string lcm_prefix = kDefaultLcmPrefix;
-  bool json = false;
 };
 
 void requireModesUse(const ModesRequest& request) {
@@ -47,52 +43,33 @@ void requireModesUse(const ModesRequest& request) {
   if (request.limit && !request.measured) {
     throw Refusal("--to: needs --measured LOG");
   }
-  if (request.plot && request.measured) {
+  if (request.options.plot && request.measured) {
     throw Refusal("--plot: draws the mode shapes of the model; must not be given with --measured");
   }
   if (request.modes < 1 || request.modes > 100) {
     throw Refusal("--modes: expected from 1 to 100, found " + std::to_string(request.modes));
   }
-  requirePictureName(request.plot);
-  requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
 }
 
 int showModes(const ModesRequest& request) {
   requireModesUse(request);
-  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
-  const auto systems = rotorSystems(scene, request.system);
-  if (request.measured && systems.size() > 1) {
+  const BuiltScene scene = sceneOf(request.options);
+  const auto rotors = rotorSystems(scene, request.options.system);
+  if (request.measured && rotors.size() > 1) {
     throw Refusal("--system: missing; must name the rotor that the log belongs to");
   }
-  Json all;
-  all["scene"] = scene.scene.name;
-  std::string words;
-  CsvTables csv;
-  for (const RotorSystem& system : systems) {
-    const ModesReport report =
-        request.measured ? modesReport(system,
-                                       RotorRecord(scene, system, *request.measured,
-                                                   request.lcm_prefix, ProbesRead::kAtSameInstants),
-                                       request.speed, request.limit)
-                         : modesReport(system, request.speed.value_or(system.highest_speed));
-    all["systems"][system.name] = json(report);
-    append(csv, system.name, tables(report));
-    words += (words.empty() ? "" : "\n") + text(report);
-    if (request.plot) {
-      writePicture(pictureName(*request.plot, system.name, systems.size() > 1),
-                   figure(report, static_cast<std::size_t>(request.modes)));
-    }
-  }
-  if (request.csv) {
-    writeCsv(*request.csv, csv);
-  }
-  if (request.json) {
-    printJson(all);
-  } else {
-    printText(words);
-  }
-  return kDone;
+  const auto report = [&](const RotorSystem& rotor) {
+    return request.measured
+               ? modesReport(rotor,
+                             RotorRecord(scene, rotor, *request.measured, request.lcm_prefix,
+                                         ProbesRead::kAtSameInstants),
+                             request.speed, request.limit)
+               : modesReport(rotor, request.speed.value_or(rotor.highest_speed));
+  };
+  return reportRotors(request.options, scene, rotors, report, [&](const ModesReport& modes) {
+    return figure(modes, static_cast<std::size_t>(request.modes));
+  });
 }
 
 }  // namespace
@@ -100,8 +77,7 @@ int showModes(const ModesRequest& request) {
 void addModesCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("modes", kModesDescription);
   const auto request = std::make_shared<ModesRequest>();
-  addSceneOption(command, request->scene);
-  command.option("--system", request->system, "only this rotor").type("NAME");
+  addReportOptions(command, request->options, "the lowest mode shapes");
   command.option("--measured", request->measured, "log of the running machine").type("LOG");
   command
       .option("--speed", request->speed,
@@ -115,11 +91,7 @@ void addModesCommand(const ProgramCommand& twin, int& status) {
   command
       .option("--lcm-prefix", request->lcm_prefix, "prefix of the log's channels; default: TWIN_")
       .type("PREFIX");
-  command.option("--plot", request->plot, "the lowest mode shapes, FILE.svg or FILE.png")
-      .type("FILE");
   command.option("--modes", request->modes, "number of modes drawn; default: 6").type("N");
-  addCsvOption(command, request->csv);
-  command.flag("--json", request->json, "print one JSON object");
   command.footer(kModesFooter);
   command.callback([request, &status] { status = showModes(*request); });
 }

@@ -7,11 +7,12 @@
 #include "reports/asked_cost.h"
 #include "reports/monitored_log.h"
 #include "scene/scene_reader.h"
-#include "scene/station_names.h"
+#include "scene/signal_names.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
+#include "tools/report_options.h"
 #include "tools/shipped_scenes.h"
 #include "transport/channels.h"
 
@@ -98,12 +99,7 @@ int monitor(const MonitorRequest& request) {
   if (request.csv) {
     writeCsv(*request.csv, tables(run));
   }
-  if (request.json) {
-    printJson(json(run));
-  } else {
-    printText(text(run));
-  }
-  return kDone;
+  return printReport(request.json, json(run), text(run));
 }
 
 }  // namespace
@@ -129,7 +125,7 @@ void addMonitorCommand(const ProgramCommand& twin, int& status) {
               "end of the window of the full spectrum [s, simulated]; default: the end of the log")
       .type("S");
   addCsvOption(command, request->csv);
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   addInsistOption(command, request->insist);
   command.footer(kMonitorFooter);
   command.callback([request, &status] { status = monitor(*request); });

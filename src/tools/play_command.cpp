@@ -11,13 +11,12 @@
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "tools/arguments.h"
-#include "tools/channel_filter.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
 #include "tools/keyboard.h"
+#include "tools/report_options.h"
 #include "transport/lcm_connection.h"
 #include "transport/playable_log.h"
-#include "transport/played_run.h"
 
 namespace whirl_twin {
 
@@ -342,7 +341,7 @@ void addPlayCommand(const ProgramCommand& twin, int& status) {
       .option("--lcm-prefix", request->lcm_prefix,
               "prefix of the recorded twin's channels; default: TWIN_")
       .type("PREFIX");
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   command.footer(kPlayFooter);
   command.callback([request, &status] { status = play(*request); });
 }

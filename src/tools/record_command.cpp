@@ -12,10 +12,10 @@
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "tools/arguments.h"
-#include "tools/channel_filter.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
 #include "tools/new_output.h"
+#include "tools/report_options.h"
 #include "transport/channel_counts.h"
 #include "transport/channel_tap.h"
 #include "transport/lcm_connection.h"
@@ -302,7 +302,7 @@ void addRecordCommand(const ProgramCommand& twin, int& status) {
       .option("--lcm-prefix", request->lcm_prefix, "prefix of the twin's channels; default: TWIN_")
       .type("PREFIX");
   command.flag("--force", request->force, "overwrite existing files");
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   command.footer(kRecordFooter);
   command.callback([request, &status] { status = record(*request); });
 }

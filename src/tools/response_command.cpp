@@ -4,12 +4,10 @@
 
 #include "reports/asked_cost.h"
 #include "reports/forced_report.h"
-#include "reports/picture_file.h"
 #include "reports/response_report.h"
-#include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/shipped_scenes.h"
+#include "tools/report_options.h"
 
 namespace whirl_twin {
 
@@ -38,54 +36,13 @@ constexpr const char* kOrbitFooter =
     "  twin orbit demo --speed 55 --plot orbit.svg";
 
 struct ResponseRequest {
-  std::string scene;
-  std::optional<std::string> system, station, plot, csv;
+  ReportOptions options;
+  std::optional<std::string> station;
   SpeedRangeOptions range;
   double speed = 0.0;
   ForcedRequest force;
-  bool json = false;
   bool insist = false;
 };
-
-/// `report` of a rotor gives what json(), text(), tables() and figure() take.
-template <class Report>
-int show(const ResponseRequest& request, const Report& report) {
-  requirePictureName(request.plot);
-  requireCsvName(request.csv);
-  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
-  const auto systems = rotorSystems(scene, request.system);
-  Json all;
-  all["scene"] = scene.scene.name;
-  std::string words;
-  CsvTables csv;
-  for (const RotorSystem& system : systems) {
-    const auto one = report(system);
-    all["systems"][system.name] = json(one);
-    append(csv, system.name, tables(one));
-    words += (words.empty() ? "" : "\n") + text(one);
-    if (request.plot) {
-      writePicture(pictureName(*request.plot, system.name, systems.size() > 1), figure(one));
-    }
-  }
-  if (request.csv) {
-    writeCsv(*request.csv, csv);
-  }
-  if (request.json) {
-    printJson(all);
-  } else {
-    printText(words);
-  }
-  return kDone;
-}
-
-void addCommonOptions(const ProgramCommand& command,
-                      const std::shared_ptr<ResponseRequest>& request) {
-  addSceneOption(command, request->scene);
-  command.option("--system", request->system, "only this rotor").type("NAME");
-  command.option("--plot", request->plot, "the picture, FILE.svg or FILE.png").type("FILE");
-  addCsvOption(command, request->csv);
-  command.flag("--json", request->json, "print one JSON object");
-}
 
 }  // namespace
 
@@ -93,7 +50,7 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand(
       "response", "Unbalance response of the rotors of a scene over the shaft's speed.");
   const auto request = std::make_shared<ResponseRequest>();
-  addCommonOptions(command, request);
+  addReportOptions(command, request->options, "the picture");
   command.option("--from", request->range.from, "rad/s; default: 0").type("W");
   command
       .option("--to", request->range.to,
@@ -125,12 +82,12 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
       request->force.from = request->range.from;
       request->force.to = request->range.to;
       request->force.points = request->range.points;
-      status = show(*request, [&](const RotorSystem& system) {
+      status = reportRotors(request->options, [&](const RotorSystem& system) {
         return forcedReport(system, request->force);
       });
       return;
     }
-    status = show(*request, [&](const RotorSystem& system) {
+    status = reportRotors(request->options, [&](const RotorSystem& system) {
       tell(costOfResponse(system.name, system.dynamics->dof(), request->range.points),
            request->insist);
       return responseReport(system, request->range.of(system), request->station);
@@ -142,12 +99,13 @@ void addOrbitCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command =
       twin.subcommand("orbit", "Unbalance orbits at one speed, at every station of the rotors.");
   const auto request = std::make_shared<ResponseRequest>();
-  addCommonOptions(command, request);
+  addReportOptions(command, request->options, "the picture");
   command.option("--speed", request->speed, "speed of the shaft [rad/s]").required().type("W");
   command.footer(kOrbitFooter);
   command.callback([request, &status] {
-    status = show(*request,
-                  [&](const RotorSystem& system) { return orbitReport(system, request->speed); });
+    status = reportRotors(request->options, [&](const RotorSystem& system) {
+      return orbitReport(system, request->speed);
+    });
   });
 }
 

@@ -17,6 +17,7 @@
 #include "reports/verdict_text.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/report_options.h"
 
 namespace whirl_twin {
 
@@ -298,7 +299,7 @@ void addRouthCommand(const ProgramCommand& twin, int& status) {
               "name of a parameter: find its values for which the polynomial is stable")
       .type("K");
   addCsvOption(command, request->csv);
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   addInsistOption(command, request->insist);
   command.footer(kRouthFooter);
   command.callback([request, &status] { status = test(*request); });

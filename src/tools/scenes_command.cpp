@@ -10,6 +10,7 @@
 #include "reports/output.h"
 #include "scene/scene_reader.h"
 #include "tools/commands.h"
+#include "tools/report_options.h"
 #include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
@@ -158,7 +159,7 @@ void addScenesCommand(const ProgramCommand& twin, int& status) {
   const auto request = std::make_shared<ScenesRequest>();
   command.option("FOLDER", request->folder, "of scene files; default: the package's").type("");
   command.option("--show", request->show, "print this scene's file, and list none").type("NAME");
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   command.footer(kScenesFooter);
   command.callback([request, &status] {
     status = request->show ? showScene(*request->show, request->json)

@@ -10,7 +10,7 @@
 #include "realtime/denormals.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
-#include "twin/ensemble_statistics.h"
+#include "twin/ensemble_observer.h"
 #include "twin/stop_text.h"
 
 namespace whirl_twin {

@@ -8,9 +8,8 @@
 
 #include "reports/output.h"
 #include "reports/sample_writer.h"
-#include "tools/accuracy_watch.h"
 #include "tools/progress_bar.h"
-#include "tools/validity_watch.h"
+#include "tools/run_watches.h"
 #include "twin/checkpoint.h"
 #include "twin/measurements.h"
 #include "twin/observer.h"

@@ -10,7 +10,7 @@
 #include "models/model_registry.h"
 #include "reports/asked_cost.h"
 #include "reports/selected_systems.h"
-#include "scene/drive_profile.h"
+#include "scene/drive_reader.h"
 #include "scene/scene_reader.h"
 #include "scene/surroundings.h"
 #include "scene/system_setup.h"

@@ -12,7 +12,7 @@
 #include "reports/live_lines.h"
 #include "reports/message_text.h"
 #include "reports/output.h"
-#include "tools/channel_filter.h"
+#include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
 #include "transport/channel_counts.h"

@@ -1,13 +1,9 @@
 #include <memory>
-#include <optional>
+#include <vector>
 
-#include "messages/refusal.h"
 #include "reports/level_one_report.h"
-#include "reports/picture_file.h"
-#include "scene/scene_reader.h"
-#include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/shipped_scenes.h"
+#include "tools/report_options.h"
 
 namespace whirl_twin {
 
@@ -31,11 +27,9 @@ constexpr const char* kStabilityFooter =
     "  twin stability friswell_rotor --stage 500 0.4 0.015 1.6 --stage 400 0.4 0.012 1.5";
 
 struct StabilityRequest {
-  std::string scene;
-  std::optional<std::string> system, plot, csv;
+  ReportOptions options;
   LevelOneRequest level_one;
   std::vector<std::vector<double>> centrifugal, axial;
-  bool json = false;
 };
 
 /// Each stage that was given, as many numbers as it takes.
@@ -48,43 +42,12 @@ void takeStages(StabilityRequest& request) {
   }
 }
 
-int levelOneOf(StabilityRequest& request) {
-  requirePictureName(request.plot);
-  requireCsvName(request.csv);
-  takeStages(request);
-  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
-  const auto systems = rotorSystems(scene, request.system);
-  Json all;
-  all["scene"] = scene.scene.name;
-  std::string words;
-  CsvTables csv;
-  for (const RotorSystem& system : systems) {
-    const LevelOneReport one = levelOneReport(system, request.level_one);
-    all["systems"][system.name] = json(one);
-    append(csv, system.name, tables(one));
-    words += (words.empty() ? "" : "\n") + text(one);
-    if (request.plot) {
-      writePicture(pictureName(*request.plot, system.name, systems.size() > 1), figure(one));
-    }
-  }
-  if (request.csv) {
-    writeCsv(*request.csv, csv);
-  }
-  if (request.json) {
-    printJson(all);
-  } else {
-    printText(words);
-  }
-  return kDone;
-}
-
 }  // namespace
 
 void addStabilityCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("stability", kStabilityDescription);
   const auto request = std::make_shared<StabilityRequest>();
-  addSceneOption(command, request->scene);
-  command.option("--system", request->system, "only this rotor").type("NAME");
+  addReportOptions(command, request->options, "the diagram");
   command
       .option("--speed", request->level_one.speed,
               "speed of the shaft [rad/s]; default: the drive's highest")
@@ -101,11 +64,13 @@ void addStabilityCommand(const ProgramCommand& twin, int& status) {
               "W, m, m: power, pitch diameter, blade height of an axial stage")
       .values(3)
       .type("P D H");
-  command.option("--plot", request->plot, "the diagram, FILE.svg or FILE.png").type("FILE");
-  addCsvOption(command, request->csv);
-  command.flag("--json", request->json, "print one JSON object");
   command.footer(kStabilityFooter);
-  command.callback([request, &status] { status = levelOneOf(*request); });
+  command.callback([request, &status] {
+    takeStages(*request);
+    status = reportRotors(request->options, [&](const RotorSystem& rotor) {
+      return levelOneReport(rotor, request->level_one);
+    });
+  });
 }
 
 }  // namespace whirl_twin

@@ -24,6 +24,7 @@
 #include "tools/commands.h"
 #include "tools/interrupt.h"
 #include "tools/progress_bar.h"
+#include "tools/report_options.h"
 
 namespace whirl_twin {
 
@@ -330,7 +331,7 @@ void addSweepCommand(const ProgramCommand& twin, int& status) {
   command.flag("--status", request->status, "run nothing: print the progress");
   command.flag("--mixed", request->mixed,
                "resume results of another version, compiler or processor");
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   addInsistOption(command, request->insist);
   command.footer(kSweepFooter);
   command.callback([request, &status] { status = sweepStudy(*request); });

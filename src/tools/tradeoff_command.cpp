@@ -15,6 +15,7 @@
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
+#include "tools/report_options.h"
 #include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
@@ -120,12 +121,7 @@ int tradeoffOf(const TradeoffRequest& request) {
     all["recommended"].push_back(summaryJson(report));
     words += (words.empty() ? "" : "\n") + text(report);
   }
-  if (request.json) {
-    printJson(all);
-  } else {
-    printText(words);
-  }
-  return kDone;
+  return printReport(request.json, all, words);
 }
 
 }  // namespace
@@ -141,7 +137,7 @@ void addTradeoffCommand(const ProgramCommand& twin, int& status) {
   command.option("--plot", request->plot, "a work-precision plot, FILE.svg or FILE.png")
       .type("FILE");
   command.option("--output", request->output, "the rows as a table, FILE.csv").type("FILE");
-  command.flag("--json", request->json, "print one JSON object");
+  addJsonOption(command, request->json);
   addInsistOption(command, request->insist);
   command.footer(kTradeoffFooter);
   command.callback([request, &status] { status = tradeoffOf(*request); });

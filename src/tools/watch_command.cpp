@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "algebra/constants.h"
+#include "messages/loop_statistics.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
-#include "messages/slowest_part.h"
 #include "monitoring/run_filter.h"
 #include "monitoring/whirl_vibration.h"
 #include "reports/live_lines.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "transport/earlier_forms.h"
-#include "transport/lcm_encode.h"
+#include "transport/lcm_converters.h"
 #include "transport/payload_layout.h"
 
 namespace whirl_twin {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "transport/channels.h"
-#include "transport/lcm_encode.h"
+#include "transport/lcm_converters.h"
 
 namespace whirl_twin {
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "messages/names.h"
+#include "transport/channels.h"
 #include "transport/twin_namespace.h"
 
 namespace whirl_twin {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "messages/message_check.h"
-#include "transport/lcm_types.h"
+#include "transport/lcm_converters.h"
 
 namespace whirl_twin {
 

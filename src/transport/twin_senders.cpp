@@ -1,12 +1,117 @@
 #include "transport/twin_senders.h"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <linux/filter.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <vector>
 
+#include "transport/lcm_connection.h"
+
 namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kScheme = "udpm://";
+constexpr const char* kAddress = "239.255.76.67";  // LCM's, where the url gives none
+constexpr std::uint16_t kPort = 7667;
+
+// A short LCM message: a magic number, a sequence number, the channel and a zero, what it carries.
+constexpr std::uint32_t kShortMessageMagic = 0x4c433032;  // LC02
+constexpr std::size_t kBeforeChannel = 8;                 // bytes
+constexpr std::size_t kLongestDatagram = 65536;           // bytes of a datagram
+constexpr std::uint32_t kUdpHeader = 8;                   // bytes, which a filter sees, too
+
+std::optional<sockaddr_in> addressOf(const std::string& url) {
+  if (url.compare(0, std::strlen(kScheme), kScheme) != 0) {
+    return std::nullopt;
+  }
+  const std::string network =
+      url.substr(std::strlen(kScheme), url.find('?') - std::strlen(kScheme));
+  const std::size_t colon = network.find(':');
+  const std::string host = network.substr(0, colon);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(kPort);
+  if (colon != std::string::npos) {
+    address.sin_port =
+        htons(static_cast<std::uint16_t>(std::strtoul(network.c_str() + colon + 1, nullptr, 10)));
+  }
+  if (inet_pton(AF_INET, host.empty() ? kAddress : host.c_str(), &address.sin_addr) != 1) {
+    return std::nullopt;
+  }
+  return address;
+}
+
+/// Keeps what begins with a magic number and, after another number, these bytes.
+std::vector<sock_filter> filterFor(const std::string& channel) {
+  std::vector<sock_filter> program;
+  const auto require = [&program](std::uint16_t size, std::uint32_t at, std::uint32_t value) {
+    program.push_back(BPF_STMT(BPF_LD | BPF_ABS | size, at));
+    program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 1, 0));
+    program.push_back(BPF_STMT(BPF_RET | BPF_K, 0));
+  };
+  require(BPF_W, kUdpHeader, kShortMessageMagic);
+  for (std::size_t i = 0; i <= channel.size(); ++i) {  // and the zero
+    require(BPF_B, static_cast<std::uint32_t>(kUdpHeader + kBeforeChannel + i),
+            static_cast<unsigned char>(channel.c_str()[i]));
+  }
+  program.push_back(BPF_STMT(BPF_RET | BPF_K, kLongestDatagram));
+  return program;
+}
+
+}  // namespace
+
+bool ChannelListener::canListenTo(const std::string& url) {
+  return addressOf(url).has_value();
+}
+
+ChannelListener::ChannelListener(const std::string& url, const std::string& channel)
+    : head_(kBeforeChannel + channel.size() + 1),
+      socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)),
+      datagram_(kLongestDatagram) {
+  const auto address = addressOf(url);
+  std::vector<sock_filter> program = filterFor(channel);
+  const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
+  const int on = 1;
+  ip_mreq group{};
+  group.imr_multiaddr = address.value().sin_addr;
+  const auto set = [this](int level, int option, const auto& value) {
+    return setsockopt(socket_, level, option, &value, sizeof value) == 0;
+  };
+  // The filter before all others can arrive.
+  if (!(socket_ >= 0 && set(SOL_SOCKET, SO_ATTACH_FILTER, filter) &&
+        set(SOL_SOCKET, SO_REUSEADDR, on) &&
+        bind(socket_, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) == 0 &&
+        set(IPPROTO_IP, IP_ADD_MEMBERSHIP, group))) {
+    const std::string why = std::strerror(errno);
+    if (socket_ >= 0) {
+      close(socket_);
+    }
+    throw LcmNotAvailable(fmt::format("{} cannot be received at '{}': {}", channel, url, why));
+  }
+}
+
+ChannelListener::~ChannelListener() {
+  close(socket_);
+}
+
+std::optional<std::vector<std::uint8_t>> ChannelListener::next() {
+  const ssize_t size = recv(socket_, datagram_.data(), datagram_.size(), MSG_DONTWAIT);
+  if (size < static_cast<ssize_t>(head_)) {
+    return std::nullopt;
+  }
+  return std::vector<std::uint8_t>(datagram_.begin() + static_cast<std::ptrdiff_t>(head_),
+                                   datagram_.begin() + size);
+}
+
 namespace {
 
 /// [s] that what was heard counts: some beats of each.

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "analysis/mass_matrix.h"
+#include "analysis/natural_modes.h"
 #include "messages/refusal.h"
 #include "models/model_registry.h"
 #include "scene/ensemble_draw.h"

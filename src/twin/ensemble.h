@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "integration/excitation.h"
-#include "realtime/latest_record.h"
+#include "realtime/record_ring.h"
 #include "realtime/state_image.h"
 #include "scene/built_system.h"
 #include "scene/scene.h"

@@ -6,9 +6,19 @@
 #include <vector>
 
 #include "messages/states.h"
+#include "twin/ensemble.h"
 #include "twin/twin.h"
 
 namespace whirl_twin {
+
+// Mean, standard deviation and percentiles of an ensemble.
+
+/// The percentile p [%] of values in ascending order, linear between them (Hyndman & Fan, The
+/// American Statistician 50, 1996, definition 7). NaN of none.
+double percentile(const std::vector<double>& ascending, double p);
+
+/// Of one record of an ensemble, with its step, but without its time and system.
+state::EnsembleState ensembleStatistics(const Ensemble& ensemble, const double* record);
 
 class EnsembleObserver {
  public:

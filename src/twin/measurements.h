@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "control/keyphasor.h"
-#include "control/sample_instants.h"
 #include "control/sensor.h"
 #include "messages/measurement.h"
 #include "scene/built_scene.h"

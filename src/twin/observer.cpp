@@ -6,10 +6,27 @@
 #include <utility>
 
 #include "analysis/equilibria.h"
-#include "scene/station_names.h"
+#include "scene/signal_names.h"
 #include "twin/observed_states.h"
 
 namespace whirl_twin {
+
+void EnergyAudit::observe(const Energies& energies, double work) {
+  if (!started_) {
+    started_ = true;
+    start_ = energies.jacobi - work;
+  }
+  scale_ = std::max(scale_, std::fabs(energies.kinetic) + std::fabs(energies.potential));
+  residual_ = scale_ > 0.0 ? (energies.jacobi - start_ - work) / scale_ : 0.0;
+}
+
+void ErrorTrack::observe(double time, double sum, double horizon, bool anew) {
+  const double kept = std::isnan(estimate_) ? 0.0 : estimate_ * std::exp(-(time - time_) / horizon);
+  const double now = kept + (anew || std::isnan(sum_) ? sum : sum - sum_);
+  estimate_ = now < 0.0 ? 0.0 : now;  // NaN stays
+  sum_ = sum;
+  time_ = time;
+}
 
 namespace {
 

@@ -16,19 +16,51 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/dynamics.h"
 #include "messages/controller_state.h"
 #include "messages/states.h"
 #include "realtime/state_image.h"
 #include "signal/orbit_window.h"
-#include "twin/energy_audit.h"
-#include "twin/error_track.h"
-#include "twin/followed_whirl.h"
 #include "twin/motor_track.h"
 #include "twin/stop_text.h"
 #include "twin/system_generations.h"
 #include "twin/twin.h"
+#include "twin/whirl_phase.h"
 
 namespace whirl_twin {
+
+// The energy balance of a system over its records: what h = v dL/dv - L has gained beyond the work
+// that the steps have audited, in parts of the largest energy in play so far.
+
+class EnergyAudit {
+ public:
+  /// The next record; the first one is the start.
+  void observe(const Energies& energies, double work);
+  double residual() const { return residual_; }  ///< [-]
+
+ private:
+  bool started_ = false;
+  double start_ = 0.0;     // [J], h less the work
+  double scale_ = 0.0;     // [J], largest T + |V| so far
+  double residual_ = 0.0;  // [-]
+};
+
+// What a method has got wrong over a system's horizon: the errors of its steps, of which the last
+// one in so many is measured, added up and forgotten with the horizon as time constant.
+
+class ErrorTrack {
+ public:
+  /// The next record: time [s], sum of the steps' errors since the system was set [-], which was
+  /// `anew` since the last record. At the beginning the sum may also fall: it counts in parts of a
+  /// motion that grows.
+  void observe(double time, double sum, double horizon, bool anew);
+  double estimate() const { return estimate_; }  ///< [-]; NaN: not estimated
+
+ private:
+  double estimate_ = 0.0;
+  double sum_ = 0.0;   // of the newest record
+  double time_ = 0.0;  // [s], of it
+};
 
 class Observer {
  public:

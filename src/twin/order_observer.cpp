@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "scene/station_names.h"
-#include "signal/told_orders.h"
+#include "scene/signal_names.h"
+#include "signal/order_filter.h"
 
 namespace whirl_twin {
 

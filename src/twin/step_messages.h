@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "messages/message.h"
-#include "scene/station_names.h"
+#include "scene/signal_names.h"
 #include "twin/observer.h"
 #include "twin/order_observer.h"
 

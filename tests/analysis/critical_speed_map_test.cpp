@@ -1,7 +1,5 @@
 // Critical speeds over the stiffness of the bearings, against a rigid body on springs where they
 // are soft, a beam between pins where they are stiff, and the general search in between.
-#include "analysis/critical_speed_map.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,11 +1,10 @@
 // Up to which amplitude a logarithmic decrement holds: closed forms of the first harmonic.
-#include "analysis/decrement_amplitude.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "analysis/validity.h"
 #include "models_under_test.h"
 
 namespace whirl_twin {

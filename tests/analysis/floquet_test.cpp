@@ -14,7 +14,7 @@
 
 #include "algebra/dense.h"
 #include "analysis/equilibria.h"
-#include "analysis/small_motion.h"
+#include "analysis/linearized_motion.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/lagrangian_dynamics.h"
 #include "models_under_test.h"

@@ -7,7 +7,6 @@
 #include <complex>
 
 #include "algebra/dense.h"
-#include "analysis/influence_coefficients.h"
 #include "analysis/natural_modes.h"
 #include "messages/refusal.h"
 #include "random_systems.h"

@@ -1,12 +1,11 @@
 // Matrix iteration finds the modes that the eigenvalue solver finds, or says that it did not.
-#include "analysis/matrix_iteration.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <Eigen/QR>
 
 #include "algebra/dense.h"
+#include "analysis/approximate_frequencies.h"
 #include "analysis/natural_modes.h"
 #include "messages/refusal.h"
 #include "random_systems.h"

@@ -6,11 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "analysis/assumed_modes.h"
-#include "analysis/dunkerley.h"
-#include "analysis/influence_coefficients.h"
-#include "analysis/rayleigh_quotient.h"
-#include "analysis/rigid_body_modes.h"
+#include "analysis/approximate_frequencies.h"
+#include "analysis/frequency_response.h"
 #include "messages/refusal.h"
 #include "random_systems.h"
 

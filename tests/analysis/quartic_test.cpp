@@ -1,6 +1,4 @@
 // Quartics judged in doubles, beside the exact test and the roots they were made of.
-#include "analysis/quartic.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "analysis/linearized_motion.h"
 #include "analysis/routh.h"
 #include "analysis/stability_margins.h"
 

@@ -9,10 +9,10 @@
 #include <complex>
 #include <random>
 
-#include "analysis/bracketed_root.h"
 #include "analysis/campbell.h"
 #include "analysis/cross_coupling_margin.h"
 #include "analysis/instability_speed.h"
+#include "analysis/polynomial_roots.h"
 #include "analysis/stability.h"
 #include "models_under_test.h"
 #include "rotors_under_test.h"

@@ -1,12 +1,11 @@
 // The notes' conditions decide as Routh's table does, exactly, on every polynomial.
-#include "analysis/routh_conditions.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
 #include "analysis/routh.h"
+#include "analysis/routh_table.h"
 #include "hurwitz_minors.h"
 #include "messages/refusal.h"
 #include "reference_polynomials.h"

@@ -12,7 +12,6 @@
 
 #include "algebra/dense.h"
 #include "analysis/balanced_matrix.h"
-#include "analysis/unit_circle.h"
 #include "loops_under_test.h"
 
 namespace whirl_twin {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "analysis/real_root_count.h"
+#include "analysis/polynomial_roots.h"
 #include "analysis/routh.h"
 #include "messages/refusal.h"
 #include "reference_polynomials.h"

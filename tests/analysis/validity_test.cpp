@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "analysis/mass_matrix.h"
+#include "analysis/natural_modes.h"
 #include "models_under_test.h"
 
 namespace whirl_twin {

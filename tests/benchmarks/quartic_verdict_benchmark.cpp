@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "analysis/quartic.h"
+#include "analysis/linearized_motion.h"
 #include "analysis/routh.h"
 #include "analysis/stability_margins.h"
 

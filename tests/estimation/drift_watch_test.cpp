@@ -1,7 +1,5 @@
 // Parameters that stand still raise no alarm, however long a filter remembers; one that drifts does
 // in time, and it is told which, from where, to where and since when.
-#include "estimation/drift_watch.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -12,7 +10,8 @@
 #include <utility>
 
 #include "allocation_guard.h"
-#include "control/counter_noise.h"
+#include "control/sensor.h"
+#include "estimation/innovation_tests.h"
 
 namespace whirl_twin {
 namespace drift_watch_test {

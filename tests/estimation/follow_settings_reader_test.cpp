@@ -1,10 +1,9 @@
 // What a follower is told: the same from a file and from a parameter server.
-#include "estimation/follow_settings_reader.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "estimation/follow_settings.h"
 #include "messages/refusal.h"
 #include "scene/scene_reader.h"
 

@@ -1,7 +1,7 @@
 // What acts on an input between the samples of its sensor.
-#include "estimation/followed_input.h"
-
 #include <gtest/gtest.h>
+
+#include "estimation/followed_sources.h"
 
 namespace whirl_twin {
 namespace followed_input_test {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/follow_settings_reader.h"
+#include "estimation/follow_settings.h"
 #include "estimation/shooting_fit.h"
 #include "estimation/starting_filter.h"
 #include "scene/built_scene.h"

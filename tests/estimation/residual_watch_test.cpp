@@ -1,6 +1,4 @@
 // Innovations of a right model are called wrong as often as asked for; of a wrong one, at once.
-#include "estimation/residual_watch.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,8 +9,9 @@
 #include <utility>
 
 #include "allocation_guard.h"
-#include "control/counter_noise.h"
+#include "control/sensor.h"
 #include "estimation/alarm_limits.h"
+#include "estimation/innovation_tests.h"
 
 namespace whirl_twin {
 namespace residual_watch_test {

@@ -19,8 +19,8 @@
 #include "messages/message_check.h"
 #include "monitoring/twin_monitor.h"
 #include "scene/scene_reader.h"
+#include "transport/lcm_converters.h"
 #include "transport/lcm_decode.h"
-#include "transport/lcm_encode.h"
 
 namespace whirl_twin {
 namespace payload_fuzz_test {

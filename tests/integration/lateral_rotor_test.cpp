@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "allocation_guard.h"
-#include "integration/free_oscillation.h"
 #include "integration/lateral_rotor_stepper.h"
+#include "integration/lateral_run_up.h"
 #include "integration/linear_rotor_stepper.h"
 #include "integration/matrix_exponential.h"
 #include "running_system.h"

@@ -1,7 +1,5 @@
 // Steps of a linear system given by its matrices: the methods of fixed size in another form, each
 // of its order, with a balanced energy, and without allocating.
-#include "integration/linear_step.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,6 +13,7 @@
 #include "integration/exponential.h"
 #include "integration/gauss_legendre.h"
 #include "integration/linear_methods.h"
+#include "integration/linear_stepper.h"
 #include "integration/runge_kutta_4.h"
 #include "integration/semi_implicit_euler.h"
 #include "integration/velocity_verlet.h"

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "integration/linear_step.h"
+#include "integration/linear_stepper.h"
 #include "mechanics/linear_dynamics.h"
 
 namespace whirl_twin {

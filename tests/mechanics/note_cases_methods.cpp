@@ -3,14 +3,10 @@
 #include <Eigen/LU>
 
 #include "algebra/dense.h"
-#include "analysis/assumed_modes.h"
+#include "analysis/approximate_frequencies.h"
 #include "analysis/cantilever_modes.h"
-#include "analysis/dunkerley.h"
 #include "analysis/frequency_response.h"
-#include "analysis/influence_coefficients.h"
-#include "analysis/matrix_iteration.h"
 #include "analysis/natural_modes.h"
-#include "analysis/rayleigh_quotient.h"
 #include "note_system.h"
 
 namespace whirl_twin {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "../models/every_variant.h"
-#include "analysis/mass_matrix.h"
+#include "analysis/natural_modes.h"
 #include "models/model_registry.h"
 
 namespace whirl_twin {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "scene/scene_error.h"
 
 namespace whirl_twin {

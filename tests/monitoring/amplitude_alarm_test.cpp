@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 namespace data_lost_alarm_test {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {

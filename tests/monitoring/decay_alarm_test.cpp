@@ -7,7 +7,7 @@
 #include <complex>
 #include <random>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 namespace decay_alarm_test {

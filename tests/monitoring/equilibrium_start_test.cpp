@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "analysis/equilibria.h"
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "scene/scene_error.h"
 #include "watched_twin.h"
 

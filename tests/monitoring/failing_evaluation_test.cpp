@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {

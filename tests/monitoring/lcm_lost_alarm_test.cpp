@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "scene/scene_error.h"
 #include "watched_twin.h"
 

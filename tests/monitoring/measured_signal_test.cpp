@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "twin/measurements.h"
 #include "twin/order_observer.h"
 #include "watched_twin.h"

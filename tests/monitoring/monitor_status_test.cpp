@@ -1,8 +1,9 @@
 // The heartbeat: it tells of its alerts and how old its verdicts are; one that has stopped is
 // missed, one that never was is not.
+#include "messages/monitor_status.h"
+
 #include <gtest/gtest.h>
 
-#include "messages/monitor_pulse.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {

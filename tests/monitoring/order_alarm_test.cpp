@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "twin/order_observer.h"
 #include "watched_twin.h"
 

@@ -10,7 +10,7 @@
 #include "../scene/scenes.h"
 #include "algebra/constants.h"
 #include "analysis/equilibria.h"
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "monitoring/stability_alarm.h"
 #include "monitoring/system_judge.h"
 #include "scene/built_scene.h"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "analysis/routh.h"
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 namespace stability_alarm_test {

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../scene/scenes.h"
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "scene/built_scene.h"
 #include "twin/stop_text.h"
 #include "twin/twin.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../analysis/models_under_test.h"
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 namespace validity_alarm_test {

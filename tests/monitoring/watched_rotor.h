@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "algebra/constants.h"
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "monitoring/critical_speed_alarm.h"
 
 namespace whirl_twin {

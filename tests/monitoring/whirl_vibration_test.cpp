@@ -9,7 +9,7 @@
 #include <complex>
 #include <random>
 
-#include "messages/alert_types.h"
+#include "messages/alert.h"
 #include "monitoring/amplitude_alarm.h"
 #include "watched_twin.h"
 

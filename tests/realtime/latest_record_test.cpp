@@ -1,6 +1,4 @@
 // The newest record comes out whole, once, and in order, however the two threads run.
-#include "realtime/latest_record.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "allocation_guard.h"
+#include "realtime/record_ring.h"
 
 namespace whirl_twin {
 namespace latest_record_test {

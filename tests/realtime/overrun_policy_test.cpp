@@ -1,10 +1,9 @@
-#include "realtime/overrun_policy.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "messages/refusal.h"
+#include "realtime/fixed_rate_loop.h"
 
 namespace whirl_twin {
 namespace overrun_policy_test {

@@ -10,7 +10,7 @@
 
 #include <string>
 
-#include "messages/alarm_command.h"
+#include "messages/commands.h"
 #include "transport/channels.h"
 #include "transport/lcm_publisher.h"
 #include "waiting.h"

@@ -3,7 +3,6 @@
 
 #include <limits>
 
-#include "display/follow_text.h"
 #include "display/status_text.h"
 #include "display/terminal_text.h"
 #include "transport/ros_converters.h"

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "display/command_bars.h"
 #include "display/instrument_panel.h"
 #include "display/layout.h"
 #include "display/rotor_display.h"
+#include "display/system_display.h"
 #include "display/twin_panel.h"
 #include "drawn_markers.h"
 #include "monitoring/stability_alarm.h"

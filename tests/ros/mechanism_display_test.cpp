@@ -12,7 +12,7 @@
 #include <set>
 #include <utility>
 
-#include "display/measured_place.h"
+#include "display/scene_dynamics.h"
 #include "display/sketch_drawing.h"
 #include "drawn_markers.h"
 #include "models/model_registry.h"

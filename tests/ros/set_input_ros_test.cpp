@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "messages/input_command.h"
+#include "messages/commands.h"
 #include "transport/channels.h"
 #include "transport/lcm_publisher.h"
 #include "waiting.h"

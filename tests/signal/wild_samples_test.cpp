@@ -1,11 +1,11 @@
-#include "signal/wild_samples.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <random>
 #include <vector>
+
+#include "signal/outliers.h"
 
 namespace whirl_twin {
 namespace wild_samples_test {

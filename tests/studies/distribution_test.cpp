@@ -1,9 +1,9 @@
-#include "studies/distribution.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "studies/study.h"
 
 namespace whirl_twin {
 namespace distribution_test {

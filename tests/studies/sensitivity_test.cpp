@@ -1,9 +1,9 @@
-#include "studies/sensitivity.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "studies/answers.h"
 
 namespace whirl_twin {
 namespace sensitivity_test {

@@ -9,7 +9,7 @@
 
 #include "state_samples.h"
 #include "transport/earlier_forms.h"
-#include "transport/lcm_encode.h"
+#include "transport/lcm_converters.h"
 
 namespace whirl_twin {
 namespace lcm_decode_test {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "state_samples.h"
-#include "transport/command_channel.h"
-#include "transport/lcm_encode.h"
+#include "transport/lcm_connection.h"
+#include "transport/lcm_converters.h"
 #include "transport/refused_payloads.h"
 #include "whirl_twin/command_answer_t.hpp"
 #include "whirl_twin/twin_command_t.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "transport/earlier_forms.h"
+#include "transport/lcm_converters.h"
 #include "transport/lcm_decode.h"
-#include "transport/lcm_encode.h"
 
 #ifdef WHIRL_TWIN_WITH_ROS
 #include <ros/serialization.h>

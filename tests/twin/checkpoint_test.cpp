@@ -24,7 +24,6 @@
 #include "messages/checksum.h"
 #include "messages/refusal.h"
 #include "running_twin.h"
-#include "twin/live_checkpoint.h"
 
 namespace whirl_twin {
 namespace checkpoint_test {

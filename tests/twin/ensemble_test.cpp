@@ -13,7 +13,6 @@
 #include "running_twin.h"
 #include "scene/ensemble_draw.h"
 #include "twin/ensemble_observer.h"
-#include "twin/ensemble_statistics.h"
 #include "twin/observer.h"
 
 namespace whirl_twin {

@@ -20,8 +20,8 @@
 #include <memory>
 #include <vector>
 
-#include "mechanics/banded_linearization.h"
 #include "mechanics/linear_rotor.h"
+#include "mechanics/linearization.h"
 #include "mechanics/rotors/modal_damping.h"
 #include "mechanics/rotors/moving_coordinates.h"
 #include "mechanics/rotors/shaft_element.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "integration/vector_widths.h"
+#include "integration/simd_vector.h"
 
 namespace whirl_twin::comparison {
 namespace {

@@ -1,0 +1,46 @@
+#include "tools/report_options.h"
+
+#include "scene/scene_reader.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/shipped_scenes.h"
+
+namespace whirl_twin {
+
+void addReportOptions(const ProgramCommand& command, ReportOptions& options,
+                      const std::string& drawn) {
+  addSceneOption(command, options.scene);
+  command.option("--system", options.system, "only this rotor").type("NAME");
+  command.option("--plot", options.plot, drawn + ", FILE.svg or FILE.png").type("FILE");
+  addCsvOption(command, options.csv);
+  addJsonOption(command, options.json);
+}
+
+void addJsonOption(const ProgramCommand& command, bool& json) {
+  command.flag("--json", json, "print one JSON object");
+}
+
+int printReport(bool as_json, const Json& json, const std::string& text) {
+  if (as_json) {
+    printJson(json);
+  } else {
+    printText(text);
+  }
+  return kDone;
+}
+
+int printReport(const ReportOptions& options, const Json& json, const std::string& text,
+                const CsvTables& tables) {
+  if (options.csv) {
+    writeCsv(*options.csv, tables);
+  }
+  return printReport(options.json, json, text);
+}
+
+BuiltScene sceneOf(const ReportOptions& options) {
+  requirePictureName(options.plot);
+  requireCsvName(options.csv);
+  return build(readSceneFile(scenePath(options.scene)));
+}
+
+}  // namespace whirl_twin
