@@ -16,7 +16,7 @@
 
 using Clock = std::chrono::steady_clock;
 constexpr std::int64_t kLongest = 50'000'000;  // [ns], of a block
-constexpr std::size_t kMostRows = 500;         // of a block
+constexpr std::size_t kMaxRows = 500;         // of a block
 
 /// False where two columns have one name, and that is said.
 bool takeNames(std::istringstream columns, whirl_twin::measurement_t& block) {
@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
       }
       line.clear();
     }
-    const bool full = newest - sent >= kLongest || block.instant.size() >= kMostRows;
+    const bool full = newest - sent >= kLongest || block.instant.size() >= kMaxRows;
     if (!block.instant.empty() && (file.eof() || full)) {
       send(link, channel, block);
       sent = newest;

@@ -17,8 +17,8 @@ constexpr double kLonger = 1.02;  // or make it last so much longer
 constexpr double kCheap = 0.01;
 constexpr int kMaxReferenceSubsteps = 1 << 20;
 constexpr double kHopeless = 0.25;
-/// A disturbance of the start in parts of the largest coordinates, and the rounding of all steps
-/// that it stands for.
+/// A perturbation of the initial state relative to the largest coordinates, and the rounding error
+/// of all steps that it represents.
 constexpr double kDisturbance = 1.0e-13;
 constexpr double kRounding = 2.0e-15;
 /// Errors that have grown so much may have met what bounds them: a limit, a slew, a stop.
@@ -32,8 +32,8 @@ int doublingsFor(double times) {
   return static_cast<int>(std::clamp(std::ceil(std::log2(times) / 6.0), 1.0, 3.0));
 }
 
-/// [ns]: the filter of a controller's sensor sees a motion as the twin's steps show it
-/// (control/sensor.h), whatever goes on in them: a reference needs shorter ones.
+/// [ns]: the filter of a controller's sensor samples the motion at the twin's steps only
+/// (control/sensor.h): a reference needs shorter ones.
 std::int64_t referenceStep(const Scene& one) {
   const bool filters = std::any_of(one.controllers.begin(), one.controllers.end(),
                                    [](const auto& c) { return c.sensor.bandwidth > 0.0; });
@@ -117,9 +117,9 @@ std::size_t ReferenceTrajectory::lastWithin(double most) const {
 
 namespace {
 
-/// One pair of trajectories, as far as they go together. A corner of the forces within the last
-/// part of a step, after every node of both methods, both miss alike: they go one sample further,
-/// and what they differ by there is held against the sample before.
+/// One pair of trajectories, up to their divergence. Both methods miss a breakpoint of the forces
+/// at the end of a step, after all of their nodes: they continue one sample further, and their
+/// difference there is assigned to the sample before.
 ReferenceTrajectory pair(const Scene& one, const StepSetting& setting, const StepSetting& other,
                          std::int64_t interval, std::size_t samples) {
   ReferenceTrajectory now;
@@ -204,7 +204,7 @@ ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& met
     const StepSetting setting{method, step, substeps / 2 * 3};
     const double of_one = costOfOne(substeps);
     const bool first = best.trajectory.samples() == 0;
-    // Of the first, leaving room for shorter steps; of what has parted as much as can be had.
+    // The first run leaves budget for shorter steps; after divergence the whole budget may be used.
     const double affordable = (first ? 0.4 : 1.0) * budget.left() / of_one;
     if (static_cast<double>(asked) > affordable) {
       if (!first && !parted) {

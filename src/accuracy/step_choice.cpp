@@ -22,20 +22,20 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kMostCalibrations = 32;
-constexpr double kHorizons = 3.0;       // evaluated ahead, without a profile
-constexpr double kMostHorizons = 16.0;  // and on as long as the estimate grows
-constexpr double kStillGrows = 1.2;     // from one horizon to the next
-constexpr double kLookBudget = 4.0e6;   // evaluations, for that
+constexpr std::size_t kMaxCalibrations = 32;
+constexpr double kHorizons = 3.0;      // evaluated ahead, without a profile
+constexpr double kMaxHorizons = 16.0;  // and on as long as the estimate grows
+constexpr double kStillGrows = 1.2;    // from one horizon to the next
+constexpr double kLookBudget = 4.0e6;  // evaluations, for that
 constexpr int kRounds = 4;
-constexpr int kMostRaised = 16;  // times the substeps, where nothing is promised
+constexpr int kMaxRaised = 16;  // times the substeps, where nothing is promised
 constexpr std::int64_t kLook = 64;
 constexpr double kFastRate = 1.0e3;  // [m/s] or [rad/s]
 constexpr double kLengthsOfParts = 36.0;
 /// Coordinates of a rotor whose steps are tables over speed, and of one at a constant speed, that
 /// is still calibrated.
-constexpr Eigen::Index kMostInTables = 64;
-constexpr Eigen::Index kMostAtOneSpeed = 200;
+constexpr Eigen::Index kMaxInTables = 64;
+constexpr Eigen::Index kMaxAtOneSpeed = 200;
 
 /// Rates enter the forces: in the matrices at the start, or in what friction does at rates large
 /// and small. (A motion far from there may differ, and is what the calibration is for.)
@@ -45,7 +45,7 @@ bool hasRateForces(const ModelSetup& setup, const SystemSpec& spec) {
                                              static_cast<Eigen::Index>(values.size()));
   };
   const Dynamics& dynamics = *setup.dynamics;
-  const Moment<double> at{0.0, 0.0, spec.speed.value_or(1.0), 0.0};
+  const EvaluationPoint<double> at{0.0, 0.0, spec.speed.value_or(1.0), 0.0};
   const Eigen::VectorXd q = vector(spec.q);
   const Eigen::VectorXd v = vector(spec.v);
   const Linearization l = dynamics.linearization(q, v, dynamics.acceleration(q, v, at), at);
@@ -54,16 +54,15 @@ bool hasRateForces(const ModelSetup& setup, const SystemSpec& spec) {
          dynamics.appliedForce(q, rates, at) != dynamics.appliedForce(q, -rates, at);
 }
 
-/// Are its steps, of matrices over speed, so dear to prepare that nobody wants to wait for a dozen
-/// ways of it? That goes as the cube of the coordinates, and as the lengths of the parts that steps
-/// are taken in: at the steps of a reference those never come again.
+/// Whether its steps, with speed-dependent matrices, are too expensive to prepare for a dozen
+/// settings. The cost grows with the cube of the number of coordinates and with the number of
+/// distinct sub-step lengths: at the steps of a reference those never recur.
 bool dearToPrepare(const Scene& one, const ModelSetup& setup) {
   const bool over_speed =
       !one.drives.empty() && (!one.drives.front().profile.empty() || one.drives.front().motor);
   const double lengths = one.controllers.empty() ? 1.0 : kLengthsOfParts;
   return setup.integrators.size() == 1 && setup.dynamics->isRotor() &&
-         std::cbrt(lengths) * setup.dynamics->dof() >
-             (over_speed ? kMostInTables : kMostAtOneSpeed);
+         std::cbrt(lengths) * setup.dynamics->dof() > (over_speed ? kMaxInTables : kMaxAtOneSpeed);
 }
 
 /// What a converter rounds comes out another step of it where the motion differs by rounding only:
@@ -75,7 +74,7 @@ bool roundsInItsLoop(const Scene& one) {
 }
 
 std::string reasonFor(const StepChoice& choice, const SystemSpec& spec) {
-  const Promise& p = choice.promise;
+  const ErrorBound& p = choice.promise;
   if (p.kept) {
     return fmt::format("error {:.1g}, uncertainty {:.1g}, over {:g} s, tolerance {:g}{}", p.error,
                        p.reference_error, spec.horizon, spec.tolerance,
@@ -147,13 +146,13 @@ StepChoice lasting(const Scene& one, const ModelSetup& setup, const StepChoice& 
       return static_cast<std::int64_t>(std::max(1.0, std::min(count, affordable)));
     };
     const double estimate = largestEstimate(one, choice, within(steps),
-                                            within(std::max(steps, kMostHorizons * horizons)));
+                                            within(std::max(steps, kMaxHorizons * horizons)));
     keeps = !(estimate > spec.tolerance);
     if (keeps) {
       break;
     }
     if (method.ahead) {
-      choice.raised = true;  // as what it may not be
+      choice.raised = true;  // the caller then excludes multistep methods
       break;
     }
     const int more = doublings(std::min(estimate / spec.tolerance, 1.0e6), method.order);
@@ -164,7 +163,7 @@ StepChoice lasting(const Scene& one, const ModelSetup& setup, const StepChoice& 
     choice.raised = true;
   }
   const bool promised = given.promise.kept;
-  return promised || (keeps && choice.substeps <= kMostRaised * given.substeps) ? choice : given;
+  return promised || (keeps && choice.substeps <= kMaxRaised * given.substeps) ? choice : given;
 }
 
 struct Searched {
@@ -184,7 +183,7 @@ Searched searched(const Scene& one, const ModelSetup& setup, StepJudge& judge) {
   const bool rate_forces = hasRateForces(setup, spec);
   search.tryMethod(stepMethod(kReferenceMethod));
   if (search.found() && !judge.knowsMuch()) {
-    return {search.best(), search.best()};  // what is robust, where nobody knows what comes
+    return {search.best(), search.best()};  // the robust choice, as the future input is unknown
   }
   const auto tryThose = [&](bool with_past) {
     for (const StepMethod& method : stepMethods()) {
@@ -240,7 +239,7 @@ StepChoice chooseStep(const Scene& given, double evaluations) {
   };
   StepChoice choice = withPromise(found.best);
   if (stepMethod(choice.integrator).past > 0 && (choice.raised || !choice.promise.kept)) {
-    choice = withPromise(found.without_past);  // what comes is not what it was proven on
+    choice = withPromise(found.without_past);  // the future motion differs from the calibrated one
   }
   choice.reason = reasonFor(choice, spec);
   if (choice.integrator == kExactMethod && stepsAreExact(one, setup)) {
@@ -271,9 +270,8 @@ std::vector<StepChoice> chooseSteps(const Scene& scene, bool judge_named) {
       open.push_back(i);
     }
   }
-  const double budget = open.size() <= kMostCalibrations
-                            ? kCalibrationBudget / static_cast<double>(open.size())
-                            : 0.0;
+  const double budget =
+      open.size() <= kMaxCalibrations ? kCalibrationBudget / static_cast<double>(open.size()) : 0.0;
   std::vector<StepChoice> choices(scene.systems.size());
   for (const std::size_t i : open) {
     const Scene one = sceneOfOne(whole, i);

@@ -17,7 +17,8 @@ namespace whirl_twin {
 
 namespace {
 
-// How far the steps of a method with a past (stoermer.h) are from growing what does not grow.
+// Stability reserve of multistep methods (stoermer.h): the distance from growth of non-growing
+// deviations.
 
 constexpr std::size_t kLooks = 8;
 constexpr double kGrowth = 1.0e-3;  // a step: less is what steps so long are off by
@@ -36,8 +37,8 @@ std::vector<double> speedsOf(const Scene& one) {
   return speeds;
 }
 
-/// Does a method make of small deviations q'' = by_q q + by_v q' in a step of h [s] no more than
-/// they themselves do?
+/// Whether small deviations q'' = by_q q + by_v q' grow in a step of h [s] of a method no more than
+/// those of the exact solution.
 bool growsNoFaster(const StoermerScheme& scheme, const Linearization& l, double h) {
   const Lu mass(l.mass);
   const Eigen::MatrixXd by_q = -mass.solve(l.stiffness + l.circulatory);
@@ -54,9 +55,9 @@ bool growsNoFaster(const StoermerScheme& scheme, const Linearization& l, double 
   return growthInAStep(scheme, by_q, by_v, h) <= std::exp(growing * h) * (1.0 + kGrowth);
 }
 
-/// Would small deviations from a motion of a scene of one system, looked at here and there along
-/// it, grow no faster than they do by themselves, in steps so many times as long as the setting's?
-/// The method is one with a past.
+/// Whether small deviations from the motion of a scene of one system, sampled along it, grow no
+/// faster than those of the differential equation, at steps `times` as long as the setting's. For
+/// multistep methods.
 bool growsNothing(const Scene& one, const ModelSetup& setup, const Trajectory& motion,
                   const StepSetting& setting, int times) {
   const auto scheme =
@@ -71,7 +72,7 @@ bool growsNothing(const Scene& one, const ModelSetup& setup, const Trajectory& m
     const Eigen::Map<const Eigen::VectorXd> q(&motion.coordinates[sample * motion.dof], dof);
     const Eigen::Map<const Eigen::VectorXd> v(&motion.rates[sample * motion.dof], dof);
     for (const double speed : speedsOf(one)) {
-      const Moment<double> at{0.0, 0.0, speed, 0.0};
+      const EvaluationPoint<double> at{0.0, 0.0, speed, 0.0};
       const Linearization l = dynamics.linearization(q, v, dynamics.acceleration(q, v, at), at);
       if (!growsNoFaster(*scheme, l, h)) {
         return false;
@@ -82,21 +83,21 @@ bool growsNothing(const Scene& one, const ModelSetup& setup, const Trajectory& m
 }
 
 /// Of a step: substeps are no shorter than this, but for so many as there always may be.
-constexpr std::int64_t kShortestSubstep = 500;  // ns
+constexpr std::int64_t kMinSubstep = 500;  // ns
 constexpr int kFewSubsteps = 64;
 constexpr int kMaxChosenSubsteps = 4096;
 /// A method that is not symplectic has to be this much cheaper than gauss_legendre_6.
 constexpr double kWorthwhile = 0.7;
-constexpr double kBelieved = 1.0e12;  // an excess beyond says only that the motion was lost
+constexpr double kBelieved = 1.0e12;  // an excess beyond means only that the motion diverged
 constexpr double kRefinementGain = 0.7;
-constexpr double kMostDoublings = 16.0;
-/// A step of twice the length may be wrong by so much more.
+constexpr double kMaxDoublings = 16.0;
+/// Allowed ratio of the error at twice the step.
 constexpr double kRoundingExcess = 1.0e-3;
-/// Of a method with a past: so many times its past, and so many times the step.
+/// For multistep methods: multiple of the history, and multiple of the step.
 constexpr double kOwnSteps = 50.0;
 constexpr int kPastMargin = 4;
-/// Steps of the twin that one of a method may be read off for: beyond, little is gained.
-constexpr int kMostAhead = 32;
+/// Maximum number of the twin's steps in a macro-step: beyond, little is gained.
+constexpr int kMaxAhead = 32;
 
 double cost(const StepChoice& choice) {
   const StepMethod& method = stepMethod(choice.integrator);
@@ -107,7 +108,7 @@ double cost(const StepChoice& choice) {
 
 int doublings(double times, int order) {
   const double missing = std::ceil(std::log2(std::min(times, kBelieved)) / (order > 0 ? order : 4));
-  return static_cast<int>(std::clamp(missing, 1.0, kMostDoublings));
+  return static_cast<int>(std::clamp(missing, 1.0, kMaxDoublings));
 }
 
 StepSetting settingOf(const Scene& one, const StepChoice& choice) {
@@ -116,7 +117,7 @@ StepSetting settingOf(const Scene& one, const StepChoice& choice) {
 
 int mostSubsteps(const Scene& one) {
   return static_cast<int>(
-      std::clamp<std::int64_t>(one.step / kShortestSubstep, kFewSubsteps, kMaxChosenSubsteps));
+      std::clamp<std::int64_t>(one.step / kMinSubstep, kFewSubsteps, kMaxChosenSubsteps));
 }
 
 void StepSearch::tryMethod(const StepMethod& method) {
@@ -159,11 +160,11 @@ void StepSearch::tryMethod(const StepMethod& method) {
 
 void StepSearch::tryAhead(const StepMethod& method) {
   if (one_.systems.front().substeps > 1) {
-    return;  // shorter steps are asked for
+    return;  // shorter steps are required
   }
   StepChoice choice;
   choice.integrator = method.name;
-  for (choice.substeps = kMostAhead; choice.substeps > 1; choice.substeps /= 2) {
+  for (choice.substeps = kMaxAhead; choice.substeps > 1; choice.substeps /= 2) {
     const StepSetting setting = settingOf(one_, choice);
     if ((found_ && cost(choice) >= cost(*found_)) || cost(choice) >= kWorthwhile * implicit_cost_) {
       return;
@@ -188,17 +189,17 @@ StepChoice StepSearch::best() const {
   return plain;
 }
 
-/// An explicit method near its limit of stability is no choice: it must be sound at longer steps.
+/// An explicit method near its stability limit is rejected: it must be stable at longer steps.
 bool StepSearch::soundAtLongerSteps(const StepSetting& setting, int times, const StepMethod& method,
                                     double excess) {
   return judge_.excessAtLongerSteps(setting, times) <=
          std::pow(times, method.order + 3) * std::max(excess, kRoundingExcess);
 }
 
-/// A method with a past does not lose digits beyond its limit but the motion, and the limit is
-/// low where much is damped: it has to have shown many steps of its own, on its own, and to be
-/// sound at four times the step, by its errors and by its growth of any small deviation. Where dry
-/// friction can hold every event ends its past.
+/// Beyond its stability limit a multistep method does not lose digits but diverges, and the limit
+/// is low under strong damping: it must have taken many steps with full history, and must be stable
+/// at four times the step, by its errors and by its growth of small deviations. With dry friction
+/// that can stick, each event restarts the history.
 bool StepSearch::isProvenWithAPast(const StepSetting& setting, const StepMethod& method,
                                    double excess) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(setup_.dynamics->dof());

@@ -1,10 +1,10 @@
-// Of the ways to step a scene of one system the cheapest that is good enough, and the best if none
-// is (step_choice.h).
+// Search of the cheapest step setting of a scene of one system that satisfies the tolerance, or of
+// the most accurate if none does (step_choice.h).
 #pragma once
 
 #include <optional>
 
-#include "accuracy/promise.h"
+#include "accuracy/error_bound.h"
 #include "accuracy/step_choice.h"
 #include "algebra/constants.h"
 #include "integration/step_methods.h"
@@ -16,12 +16,12 @@ inline constexpr const char* kReferenceMethod = "gauss_legendre_6";
 
 StepSetting settingOf(const Scene& one, const StepChoice& choice);
 int mostSubsteps(const Scene& one);
-/// How often the substeps have to be doubled for so many times the error allowed.
+/// Number of doublings of the substeps for a given ratio of error to tolerance.
 int doublings(double times, int order);
 
 class StepSearch {
  public:
-  /// What it is given outlives it.
+  /// The arguments must outlive it.
   StepSearch(const Scene& one, const ModelSetup& setup, StepJudge& judge)
       : one_(one), setup_(setup), judge_(judge) {}
 
@@ -29,7 +29,7 @@ class StepSearch {
   /// One that steps ahead of the twin, by as many steps as it may.
   void tryAhead(const StepMethod& method);
   bool found() const { return found_.has_value(); }
-  /// With what there is to begin with if nothing was any good.
+  /// The initial setting if no candidate satisfies the tolerance.
   StepChoice best() const;
 
  private:

@@ -52,7 +52,7 @@ class MomentumWatch {
     }
   }
 
-  void take(const double* q, const double* v, const Moment<double>& at) {
+  void take(const double* q, const double* v, const EvaluationPoint<double>& at) {
     if (conserved_.empty()) {
       return;
     }

@@ -1,4 +1,4 @@
-// What a system of a scene does over a time, sampled: for comparing one way to step with another.
+// Sampled trajectory of a system of a scene, to compare step settings.
 #pragma once
 
 #include <cstddef>
@@ -23,10 +23,10 @@ struct StepSetting {
 /// The scene with one of its systems only, and its controllers unless they tie it to others.
 Scene sceneOfOne(const Scene& scene, std::size_t system);
 
-/// Steps inside one of the twin that a scene of one system asks for, of whatever method.
+/// Substeps in one step of the twin that a scene of one system specifies, for any method.
 int ownSubsteps(const Scene& one);
 
-/// A scene of one system, stepped as the setting says.
+/// A scene of one system with the given step setting.
 Scene withSetting(const Scene& one, const StepSetting& setting);
 
 struct Trajectory {
@@ -39,8 +39,8 @@ struct Trajectory {
   std::vector<double> whirl_phase;   ///< [rad], of a rotor; NaN where there is none
   std::vector<double> energy;        ///< [J], T + V
   double energy_drift = 0.0;         ///< largest energy residual, as the twin publishes it
-  /// Largest change of a conserved momentum, in parts of the largest momenta that make it up; NaN
-  /// where a model from energies has no cyclic coordinate, and for linear ones.
+  /// Largest change of a conserved momentum, relative to the largest of its terms; NaN where a
+  /// model from energies has no cyclic coordinate, and for linear ones.
   double momentum_drift = std::numeric_limits<double>::quiet_NaN();
   StepStatus status = StepStatus::kOk;  ///< why the samples end before the duration
 

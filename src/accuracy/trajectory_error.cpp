@@ -28,7 +28,7 @@ Scales scalesOf(const Trajectory& reference, std::size_t samples) {
   return scales;
 }
 
-/// In parts of a scale that may be zero: then only no error is small.
+/// Relative to a scale that may be zero: then only a zero error is small.
 double relative(double error, double scale) {
   return error == 0.0 ? 0.0 : error / scale;
 }

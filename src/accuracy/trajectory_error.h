@@ -1,4 +1,4 @@
-// How far one trajectory of a system is from another, and what that means for a promise.
+// Difference of two trajectories of a system, and its use in error bounds.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@ namespace whirl_twin {
 
 /// The largest differences over a time. Infinite where the trajectory ends before.
 struct TrajectoryError {
-  /// [-], of the coordinates: metres in parts of the largest of all sliding coordinates, radians in
+  /// [-], of the coordinates: metres relative to the largest of all sliding coordinates, radians in
   /// parts of the largest angle or of one radian, whichever is less.
   double position = 0.0;
-  double radius = 0.0;  ///< [-], of the whirl, in parts of the largest; NaN but for a rotor
+  double radius = 0.0;  ///< [-], of the whirl, relative to the largest; NaN except for a rotor
   double phase =
       0.0;  ///< [rad], of the whirl, where its radius is above 1/1000 of the largest; NaN likewise
-  double energy = 0.0;  ///< [-], of T + V, in parts of the largest |T + V| or of its largest change
+  double energy = 0.0;  ///< [-], of T + V, relative to the largest |T + V| or to its largest change
 };
 
 /// Over the first `samples` samples of the reference.
@@ -36,13 +36,13 @@ class ErrorCurve {
   /// Takes the next sample of a trajectory. False: the trajectory or the reference ends before.
   bool take(const Trajectory& trajectory, const Trajectory& reference);
 
-  /// Each sample but the start gets the errors of the next; the last is dropped.
+  /// Each sample except the first is assigned the errors of the next; the last is dropped.
   void holdAgainstTheSampleBefore();
 
   std::size_t samples() const { return position_.size(); }
   /// [-], as TrajectoryError::position; infinite beyond the last sample.
   double position(std::size_t sample) const;
-  /// [-], of rates in m/s and in rad/s, each in parts of the largest of its kind.
+  /// [-], of rates in m/s and in rad/s, each relative to the largest of its kind.
   double rate(std::size_t sample) const;
 
  private:

@@ -23,7 +23,7 @@ class BandedMatrix {
   BandedMatrix(Index size, Index width) : width_(width), columns_(2 * width + 1, size) {
     columns_.setZero();
   }
-  /// With the least width that holds all entries that are not zero.
+  /// With the smallest bandwidth that contains all nonzero entries.
   static BandedMatrix of(const Dense& dense);
 
   Index size() const { return columns_.cols(); }
@@ -99,8 +99,8 @@ class BandedLU {
   bool singular_ = false;
 };
 
-/// Has a Hermitian matrix a Cholesky factorization, with squared pivots above `least`? Looks at its
-/// lower half.
+/// Whether a Hermitian matrix has a Cholesky factorization with squared pivots above `least`. Reads
+/// the lower triangle only.
 template <class Scalar>
 bool hasCholesky(const BandedMatrix<Scalar>& a, double least = 0.0);
 

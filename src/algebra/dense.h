@@ -102,7 +102,7 @@ class PivotedQr {
   /// Pivots below `threshold` of the largest count as zero; 0: below rounding.
   explicit PivotedQr(const DenseArgument<double>& a, double threshold = 0.0);
   Eigen::Index rank() const;
-  /// The x with the least |A x - b|, [columns of A x columns of b].
+  /// The x that minimizes |A x - b|, [columns of A x columns of b].
   template <class Right>
   DenseSolution<double, Right> solve(const Eigen::MatrixBase<Right>& b) const {
     return solution(b);
@@ -129,7 +129,8 @@ struct SingularVectors {
 SingularVectors singularVectors(const DenseArgument<double>& a);
 Eigen::VectorXd singularValues(const DenseArgument<double>& a);
 Eigen::VectorXd singularValues(const DenseArgument<std::complex<double>>& a);
-/// The shortest of the x with the least |A x - b|; singular values below rounding count as zero.
+/// The minimum-norm least-squares solution of A x = b; singular values below rounding count as
+/// zero.
 Eigen::MatrixXd leastSquares(const DenseArgument<double>& a, const DenseArgument<double>& b);
 Eigen::MatrixXcd leastSquares(const DenseArgument<std::complex<double>>& a,
                               const DenseArgument<std::complex<double>>& b);

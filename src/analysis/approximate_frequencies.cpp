@@ -9,7 +9,7 @@
 #include "analysis/frequency_response.h"
 #include "analysis/natural_modes.h"
 #include "analysis/quadratic_form.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -38,7 +38,7 @@ double rayleighFrequency(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& sti
   requireSymmetric(stiffness, "stiffness");
   requireSize(shape, mass, "assumed shape");
   if (!shape.allFinite() || shape.isZero(0.0)) {
-    throw Refusal("assumed shape: expected finite entries, not all of them zero");
+    throw InputError("assumed shape: expected finite entries, not all of them zero");
   }
   const Eigen::VectorXd phi = shape / shape.cwiseAbs().maxCoeff();
   const double squared = phi.dot(stiffness * phi) / phi.dot(mass * phi);
@@ -155,11 +155,11 @@ std::vector<IteratedMode> matrixIteration(const Eigen::MatrixXd& mass,
   requirePositiveDefinite(mass, "mass");
   const Eigen::Index n = mass.rows();
   if (start.size() != n || !start.allFinite() || start.isZero(0.0)) {
-    throw Refusal(
+    throw InputError(
         fmt::format("matrix iteration: expected a start of {} finite entries that is not zero", n));
   }
   if (count < 1 || count > n) {
-    throw Refusal(fmt::format("matrix iteration: expected 1 to {} modes, found {}", n, count));
+    throw InputError(fmt::format("matrix iteration: expected 1 to {} modes, found {}", n, count));
   }
   Iteration iteration(mass, stiffness, limits);
   std::vector<IteratedMode> modes{iteration.next(start)};

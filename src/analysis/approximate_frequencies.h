@@ -16,7 +16,7 @@ struct DunkerleyBound {
 };
 
 /// Throws RunFailure, with the reason, for a stiffness without influence coefficients
-/// (singular: p_1 = 0 has no lower bound above it), Refusal as naturalModes().
+/// (singular: p_1 = 0 has no lower bound above it), InputError as naturalModes().
 DunkerleyBound dunkerleyBound(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness);
 
 // Rayleigh's quotient of an assumed shape {phi} (lecture notes, assumed modes method with one
@@ -25,7 +25,7 @@ DunkerleyBound dunkerleyBound(const Eigen::MatrixXd& mass, const Eigen::MatrixXd
 // an upper bound of the lowest natural frequency, and close to it: an error of the shape enters
 // squared.
 
-/// p [rad/s] from a shape [n] that is not zero. Throws Refusal for a zero shape, one
+/// p [rad/s] from a shape [n] that is not zero. Throws InputError for a zero shape, one
 /// of the wrong size, or a mass that is not positive definite, and RunFailure if the
 /// stiffness is negative for the shape (p is then imaginary).
 double rayleighFrequency(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness,
@@ -39,9 +39,9 @@ Eigen::VectorXd staticDeflection(const Eigen::MatrixXd& stiffness, const Eigen::
 Eigen::VectorXd weight(const Eigen::MatrixXd& mass, const Eigen::VectorXd& down, double gravity);
 
 // Matrix iteration (lecture notes, dynamical matrix): [D] = [a][m] applied again and again turns
-// any shape into the mode with the largest 1 / p^2, the lowest; each step shrinks what is left of
-// the others by (p_1 / p_i)^2. Sweeping the modes found out of the shape, phi_i^T [m] x = 0, leads
-// to the next one. Of equal roots it finds as many independent shapes, each of them a mode.
+// any shape into the mode with the largest 1 / p^2, the lowest; each step reduces the share of the
+// others by (p_1 / p_i)^2. Sweeping the known modes out of the shape, phi_i^T [m] x = 0, leads to
+// the next one. For equal roots it finds as many independent shapes, each of them a mode.
 
 struct IterationLimits {
   double tolerance = 1e-9;  ///< [-], |D x - x / p^2| / (|x| / p^2): 1 / p^2 of a mode is as near
@@ -58,7 +58,7 @@ struct IteratedMode {
 /// The `count` lowest modes, 1 to n, by rising frequency, the first from the shape `start` [n]. A
 /// start without any part of a mode would never come to it: a shape that has converged is disturbed
 /// once, and has to converge again. Ends with a mode that does not converge.
-/// Throws RunFailure for a stiffness without influence coefficients, Refusal
+/// Throws RunFailure for a stiffness without influence coefficients, InputError
 /// for a zero start, a wrong size or count, or a mass that is not positive definite.
 std::vector<IteratedMode> matrixIteration(const Eigen::MatrixXd& mass,
                                           const Eigen::MatrixXd& stiffness, int count,

@@ -6,7 +6,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kMostRounds = 100;
+constexpr int kMaxRounds = 100;
 constexpr double kWorthIt = 0.95;
 
 }  // namespace
@@ -19,7 +19,7 @@ Eigen::MatrixXd balanced(const Eigen::MatrixXd& a) {
 Eigen::VectorXd balancingUnits(Eigen::MatrixXd a) {
   Eigen::VectorXd units = Eigen::VectorXd::Ones(a.rows());
   bool changed = true;
-  for (int round = 0; changed && round < kMostRounds; ++round) {
+  for (int round = 0; changed && round < kMaxRounds; ++round) {
     changed = false;
     for (Eigen::Index i = 0; i < a.rows(); ++i) {
       const double own = std::fabs(a(i, i));

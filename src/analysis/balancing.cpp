@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "algebra/dense.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -18,15 +18,15 @@ Eigen::MatrixXcd influenceOfPlanes(const Eigen::VectorXcd& initial,
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(planes);
   for (const TrialRun& run : runs) {
     if (run.plane < 0 || run.plane >= planes) {
-      throw Refusal(
+      throw InputError(
           fmt::format("balancing: expected a plane below {}, found {}", planes, run.plane));
     }
     if (run.mass_radius == 0.0) {
-      throw Refusal("balancing: expected a trial mass that is not zero");
+      throw InputError("balancing: expected a trial mass that is not zero");
     }
     if (run.readings.size() != initial.size()) {
-      throw Refusal(fmt::format("balancing: expected {} readings of each run, found {}",
-                                initial.size(), run.readings.size()));
+      throw InputError(fmt::format("balancing: expected {} readings of each run, found {}",
+                                   initial.size(), run.readings.size()));
     }
     // A column minimizes sum |reading - v_0 - a u|^2 over its runs.
     influence.col(run.plane) += std::conj(run.mass_radius) * (run.readings - initial);
@@ -34,7 +34,7 @@ Eigen::MatrixXcd influenceOfPlanes(const Eigen::VectorXcd& initial,
   }
   for (Eigen::Index plane = 0; plane < planes; ++plane) {
     if (weight[plane] == 0.0) {
-      throw Refusal(
+      throw InputError(
           fmt::format("balancing: expected a trial run for every plane, found none for {}", plane));
     }
     influence.col(plane) /= weight[plane];
@@ -46,7 +46,7 @@ BalanceCorrection balance(const Eigen::MatrixXcd& influence, const Eigen::Vector
                           const Eigen::VectorXd& weights) {
   if (influence.rows() != initial.size() || weights.size() != initial.size() ||
       !(weights.array() >= 0.0).all()) {
-    throw Refusal(
+    throw InputError(
         fmt::format("balancing: expected {} readings and as many weights >= 0, found {} and {}",
                     influence.rows(), initial.size(), weights.size()));
   }

@@ -23,7 +23,7 @@ struct TrialRun {
 };
 
 /// A [readings x planes], from at least one run for each plane; of several runs the mean by least
-/// squares. Throws Refusal for a plane without a run, a mass of zero, or readings of
+/// squares. Throws InputError for a plane without a run, a mass of zero, or readings of
 /// different number.
 Eigen::MatrixXcd influenceOfPlanes(const Eigen::VectorXcd& initial,
                                    const std::vector<TrialRun>& runs, Eigen::Index planes);
@@ -36,7 +36,7 @@ struct BalanceCorrection {
 };
 
 /// The correction with weights w_i >= 0 of the readings; of several the one of least masses. Throws
-/// Refusal for sizes that do not fit.
+/// InputError for sizes that do not fit.
 BalanceCorrection balance(const Eigen::MatrixXcd& influence, const Eigen::VectorXcd& initial,
                           const Eigen::VectorXd& weights);
 

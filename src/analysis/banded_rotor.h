@@ -1,5 +1,4 @@
-// A linear rotor by its matrices near their diagonals, which cost a chain of nodes no more than in
-// proportion to its length.
+// A linear rotor by its banded matrices, whose cost is linear in the length of a chain of nodes.
 #pragma once
 
 #include <memory>

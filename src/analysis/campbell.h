@@ -45,9 +45,9 @@ struct CampbellRequest {
 };
 
 /// Crossings are those of whirls (isWhirl: damping ratios up to 0.7), refined to the last digits of
-/// the eigenvalues, and counted without following the modes (crossing_search.h): one that following
-/// misses is added, on the branch that was lost or, also of a mode that is not among the lowest, on
-/// one of its own.
+/// the eigenvalues, and counted without mode tracking (crossing_search.h): a crossing that tracking
+/// misses is added, on the lost branch or, also for a mode that is not among the lowest, on a
+/// separate one.
 CampbellDiagram campbell(const LinearRotor& rotor, const std::vector<Station>& stations,
                          const CampbellRequest& request);
 

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -85,15 +85,15 @@ Quadrature gaussLegendre(int points) {
 
 void requirePositive(double value, const char* what, const char* unit) {
   if (!(value > 0.0) || !std::isfinite(value)) {
-    throw Refusal(
+    throw InputError(
         fmt::format("cantilever modes: expected a positive {} [{}], found {}", what, unit, value));
   }
 }
 
 double placeOnBeam(double x, double length) {
   if (!(x >= 0.0 && x <= length)) {
-    throw Refusal(fmt::format("cantilever modes: expected x from 0 to the length {} [m], found {}",
-                              length, x));
+    throw InputError(fmt::format(
+        "cantilever modes: expected x from 0 to the length {} [m], found {}", length, x));
   }
   return x / length;
 }
@@ -106,8 +106,8 @@ CantileverModes cantileverModes(double mass_per_length, double length, double be
   requirePositive(length, "length", "m");
   requirePositive(bending_stiffness, "bending stiffness", "N m^2");
   if (count < 1 || count > CantileverModes::kMost) {
-    throw Refusal(fmt::format("cantilever modes: expected 1 to {} modes, found {}",
-                              CantileverModes::kMost, count));
+    throw InputError(fmt::format("cantilever modes: expected 1 to {} modes, found {}",
+                                 CantileverModes::kMost, count));
   }
   CantileverModes modes;
   modes.mass_per_length = mass_per_length;
@@ -150,7 +150,7 @@ Eigen::VectorXd CantileverModes::curvatures(double x) const {
 
 Eigen::VectorXd CantileverModes::monomials(const Eigen::VectorXd& q) const {
   if (q.size() != count()) {
-    throw Refusal(
+    throw InputError(
         fmt::format("cantilever modes: expected {} coordinates, found {}", count(), q.size()));
   }
   // P_n(2 xi - 1) = (-1)^n (n + 4 over 4) 2F1(-n, n + 5; 5; xi): integers, alternating in sign.

@@ -28,7 +28,7 @@ struct CantileverModes {
 
   /// phi_i [-], phi_i' [1/m] and phi_i'' [1/m^2] of all modes at x [m] from the clamp. A force F
   /// [N] at x loads them with Q = F shapes(x), a moment M [N m] with Q = M slopes(x). Throw
-  /// Refusal for x off the beam.
+  /// InputError for x off the beam.
   Eigen::VectorXd shapes(double x) const;
   Eigen::VectorXd slopes(double x) const;
   Eigen::VectorXd curvatures(double x) const;
@@ -43,7 +43,7 @@ struct CantileverModes {
 
 /// N = `count` assumed modes, 1 to CantileverModes::kMost, of a cantilever of mass per length m
 /// [kg/m], length L [m] and bending stiffness EI [N m^2], all positive. Throws
-/// Refusal otherwise.
+/// InputError otherwise.
 CantileverModes cantileverModes(double mass_per_length, double length, double bending_stiffness,
                                 int count);
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -156,7 +156,7 @@ RationalMatrix solveExactly(RationalMatrix m, RationalMatrix b) {
       ++pivot;
     }
     if (pivot == m.size()) {
-      throw Refusal("the mass matrix is singular");
+      throw InputError("the mass matrix is singular");
     }
     std::swap(m[i], m[pivot]);
     std::swap(b[i], b[pivot]);
@@ -262,7 +262,7 @@ std::vector<Rational> characteristicPolynomial(const Linearization& l) {
       {{l.mass}, {l.damping, l.gyroscopic}, {l.stiffness, l.circulatory}}, unlimited);
   const Rational leading = polynomial.front();
   if (leading == 0) {
-    throw Refusal("the mass matrix is singular");
+    throw InputError("the mass matrix is singular");
   }
   for (Rational& coefficient : polynomial) {
     coefficient /= leading;

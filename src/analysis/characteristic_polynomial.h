@@ -1,9 +1,9 @@
 // The characteristic polynomial of M q'' + (C + G) q' + (K + N) q = 0, or of a matrix, exact for
 // the matrices given.
 //
-// Doubles are rational numbers, so det(M s^2 + (C + G) s + K + N) can be had without any rounding
-// (exact_determinant.h). Structure then survives: an undamped system has odd
-// coefficients that are zero, not 1e-17, and Routh's test says marginal where it is marginal.
+// Doubles are rational numbers, so det(M s^2 + (C + G) s + K + N) can be computed without any
+// rounding. This preserves structure: an undamped system has odd coefficients that are zero, not
+// 1e-17, and Routh's test returns marginal where it is marginal.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,7 +34,7 @@ std::vector<Rational> determinantPolynomial(const std::vector<MatrixSum>& parts,
                                             ExactBudget& budget);
 
 /// Monic, highest power first, degree 2 dof. The cost grows fast: meant for a few coordinates.
-/// Throws Refusal if the mass matrix is singular.
+/// Throws InputError if the mass matrix is singular.
 std::vector<Rational> characteristicPolynomial(const Linearization& linearization);
 
 /// det(s I - a) times a positive number, highest power first; [n x n], finite. Throws

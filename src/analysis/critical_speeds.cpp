@@ -39,7 +39,7 @@ struct UnbalanceResponse {
   double slope = 0.0;   ///< d(major^2)/dw
 };
 
-/// The rotor as its published station sees it.
+/// The rotor as observed at its published station.
 class Probe {
  public:
   /// `speed` [rad/s]: one at which it has matrices.
@@ -92,10 +92,9 @@ UnbalanceResponse Probe::response(double speed) const {
   const BandedMatrix<Complex> stiffness = synchronousStiffness(l, speed);
   // Matrices that are polynomials of degree two in the speed: this difference is their derivative.
   const double delta = speed / 1024.0;
-  const auto stiffnessAt =
-      [&](double there) {  // with the terms that have w of their own at `speed`
-        return synchronousStiffness(banded_.matrices(there), speed);
-      };
+  const auto stiffnessAt = [&](double there) {  // with the speed-dependent terms at `speed`
+    return synchronousStiffness(banded_.matrices(there), speed);
+  };
   BandedMatrix<Complex> slope = stiffnessAt(speed + delta);
   slope.add(-1.0, stiffnessAt(speed - delta));
   const Factor lu(stiffness);
@@ -174,7 +173,7 @@ double peakBetween(const Probe& probe, double low, double high) {
   return bracketedRoot(fall, low, high, fall(low), fall(high));
 }
 
-/// What a search goes over.
+/// The range of a search.
 struct Search {
   Probe probe;
   double low = 0.0;   ///< [rad/s]
@@ -188,7 +187,7 @@ std::optional<Search> searchOf(const Dynamics& dynamics) {
     return std::nullopt;
   }
   if (!dynamics.linear()) {
-    SmallMotionRotor small = smallMotionRotor(dynamics);
+    LinearizedMotionRotor small = linearizedMotionRotor(dynamics);
     if (small.rotor.dof() == 0) {
       return std::nullopt;
     }

@@ -31,9 +31,9 @@ struct CriticalSpeed {
 struct CriticalSpeedSearch {
   std::vector<CriticalSpeed> found;  ///< ascending, up to the rotor's highest speed
   std::size_t beyond = 0;            ///< of a reduced rotor: how many more its equations would have
-  double highest_speed = 0.0;        ///< [rad/s], that a reduced rotor holds to; else infinity
-  /// [rad/s], the highest natural frequency at rest of those looked at (Stability::omitted); else
-  /// infinity.
+  double highest_speed = 0.0;        ///< [rad/s], validity limit of a reduced-order model; else
+                                     ///< infinity
+  /// [rad/s], the highest evaluated natural frequency at rest (Stability::omitted); else infinity.
   double searched_to = 0.0;
 };
 

@@ -41,7 +41,7 @@ class CoupledModes {
     }
     return whirls;
   }
-  /// [1/s], of whatever decays slowest; none where nothing whirls.
+  /// [1/s], of the slowest decaying mode; none where nothing whirls.
   std::optional<double> growth(double cross_coupling) const {
     std::optional<double> fastest;
     for (const WhirlMode& mode : at(cross_coupling)) {
@@ -110,7 +110,7 @@ std::optional<double> crossCouplingMargin(const LinearRotor& rotor,
 
 std::optional<CrossCouplingMargin> crossCouplingMarginOf(const Dynamics& dynamics, double speed) {
   if (!dynamics.linear() || !dynamics.hasShaft() || dynamics.stations().empty() ||
-      dynamics.dof() > kMostCoupledCoordinates) {
+      dynamics.dof() > kMaxCoupledCoordinates) {
     return std::nullopt;
   }
   const std::vector<Station> stations = dynamics.stations();

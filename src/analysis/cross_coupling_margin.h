@@ -1,10 +1,10 @@
-// How much destabilizing cross-coupled stiffness a rotor bears (API 617 and API RP 684, level I):
-// kxy = +Q, kyx = -Q [N/m] at one station, as seals and impellers have it, and the logarithmic
-// decrement over Q of the forward mode that decays slowest there. (Where the bearings, not
-// gyroscopic moments, give modes their planes: of those that do not whirl backward.) Q0, the
-// margin, is the least Q at which a mode ceases to decay. Modes are judged at each Q by themselves:
-// between unlike bearings one that is forward without Q may be backward with it, and another
-// forward. Only those that whirl count (isWhirl).
+// Stability margin against destabilizing cross-coupled stiffness (API 617 and API RP 684, level I):
+// kxy = +Q, kyx = -Q [N/m] at one station, as of seals and impellers, and the logarithmic decrement
+// over Q of the least damped forward mode there. (Where the bearings, not gyroscopic moments,
+// define the planes of the modes: of those that do not whirl backward.) Q0, the margin, is the
+// smallest Q at which a mode ceases to decay. Modes are classified at each Q separately: between
+// unequal bearings one that is forward without Q may be backward with it, and a different one
+// forward. Only whirl modes count (isWhirl).
 #pragma once
 
 #include <optional>
@@ -17,16 +17,16 @@
 
 namespace whirl_twin {
 
-// The cross-coupled stiffness that the working fluid of a stage is taken to have where nothing
-// better is known (J. Alford, J. Engineering for Power 87, 1965; as API 617 has it for level I,
-// modified by J. Wachel and W. von Nimitz, J. Petroleum Technology 33, 1981):
+// Estimated cross-coupled stiffness of the working fluid of a stage (J. Alford, J. Engineering for
+// Power 87, 1965; in API 617 for level I, modified by J. Wachel and W. von Nimitz, J. Petroleum
+// Technology 33, 1981):
 //
 //   q = B (P / w) / (D H) * ratio
 //
 // P the power of the stage, w the speed, D the diameter of its impeller (an axial stage: at the
-// blades' pitch), H the least width of its discharge, at the impeller or the diffuser (axial: the
-// blades' height). A centrifugal stage has B = 3 and the ratio of the densities at discharge and
-// suction; an axial one B = 1.5 and no ratio.
+// blades' pitch), H the smallest width of its discharge, at the impeller or the diffuser (axial:
+// the blades' height). A centrifugal stage has B = 3 and the ratio of the densities at discharge
+// and suction; an axial one B = 1.5 and no ratio.
 
 struct Stage {
   double power = 0.0;          ///< P [W]
@@ -59,8 +59,8 @@ std::vector<CrossCouplingRow> slowestForwardMode(const LinearRotor& rotor,
                                                  std::size_t station, double speed,
                                                  const std::vector<double>& cross_couplings);
 
-/// Q0 [N/m] >= 0; 0 if a mode does not decay as it is, nothing if no cross-coupling up to 1e6 times
-/// the largest stiffness makes one grow.
+/// Q0 [N/m] >= 0; 0 if a mode does not decay without it, nothing if no cross-coupling up to 1e6
+/// times the largest stiffness makes one grow.
 std::optional<double> crossCouplingMargin(const LinearRotor& rotor,
                                           const std::vector<Station>& stations, std::size_t station,
                                           double speed);
@@ -71,9 +71,9 @@ struct CrossCouplingMargin {
   std::optional<double> stiffness;  ///< Q0 [N/m]; none makes it grow
 };
 
-/// At a shaft speed [rad/s]. Nothing for what is not a linear rotor, or has more than
-/// kMostCoupledCoordinates: each of some fifty steps towards the margin costs all its eigenvalues.
-constexpr int kMostCoupledCoordinates = 64;
+/// At a shaft speed [rad/s]. Nothing for a model that is not a linear rotor, or has more than
+/// kMaxCoupledCoordinates: each of some fifty steps towards the margin costs all its eigenvalues.
+constexpr int kMaxCoupledCoordinates = 64;
 std::optional<CrossCouplingMargin> crossCouplingMarginOf(const Dynamics& dynamics, double speed);
 
 }  // namespace whirl_twin

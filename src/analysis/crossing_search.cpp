@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "algebra/constants.h"
-#include "analysis/growth_radius.h"
 #include "analysis/lowest_eigenvalues.h"
 #include "analysis/stability.h"
+#include "analysis/unstable_root_bound.h"
 
 namespace whirl_twin {
 
@@ -21,11 +21,11 @@ constexpr double kMet = 1.0e-6;  // of a frequency: as near as a mode comes that
 constexpr std::array<double, 4> kBands{-4.0945, -1.1, 0.3, 0.86730053};
 constexpr double kAside = 0.4877;  // of a rectangle: no round number, where a mode may be
 constexpr double kSame = 1.0e-9;   // of a speed, within which crossings are one
-constexpr int kMostHalvings = 80;
+constexpr int kMaxBisections = 80;
 // Of a path: the longest step, and as a part of h w, the distance to overdamped roots, two of which
 // turn the phase a whole time; the largest turn of a step, and by how much it may differ from that
 // which the slopes at its ends make; the shortest step; that of a difference.
-constexpr double kLongestStep = 0.05, kWide = 0.4, kLargestTurn = 1.0, kTurnError = 0.03,
+constexpr double kMaxStep = 0.05, kWide = 0.4, kMaxTurn = 1.0, kTurnError = 0.03,
                  kShortestStep = 1.0e-10, kDifference = 1.0e-6;
 constexpr int kNewtonSteps = 40;
 
@@ -76,15 +76,14 @@ double CrossingSearch::turnOnce(const Edge& edge) const {
     const double d = u + kDifference > 1.0 ? -kDifference : kDifference;
     return std::arg(at(u + d) * std::conj(there)) / d;
   };
-  double sum = 0.0, u = 0.0, step = 0.5 * kLongestStep;
+  double sum = 0.0, u = 0.0, step = 0.5 * kMaxStep;
   Complex before = at(0.0);
   double rate = slope(0.0, before);
   while (u < 1.0) {
     const double x = x_from + u * (x_to - x_from), speed = w_from + u * (w_to - w_from);
     const double wide = std::hypot(
         speed * std::cosh(x) * (x_to - x_from) + ratioOf(x) * (w_to - w_from), w_to - w_from);
-    step = std::min(
-        {2.0 * step, kLongestStep, kWide * speed / wide, 0.6 / (std::fabs(rate) + 1.0e-9)});
+    step = std::min({2.0 * step, kMaxStep, kWide * speed / wide, 0.6 / (std::fabs(rate) + 1.0e-9)});
     for (;; step *= 0.5) {
       if (!(step > kShortestStep) || !(std::norm(before) > 0.0)) {
         return kNaN;
@@ -94,7 +93,7 @@ double CrossingSearch::turnOnce(const Edge& edge) const {
       const double next_rate = slope(next, after);
       const double expected = 0.5 * (next - u) * (rate + next_rate);
       const double off = std::remainder(std::arg(after * std::conj(before)) - expected, kTwoPi);
-      if (std::fabs(off) <= kTurnError && std::fabs(expected) <= kLargestTurn) {
+      if (std::fabs(off) <= kTurnError && std::fabs(expected) <= kMaxTurn) {
         sum += expected + off;
         u = next;
         before = after;
@@ -118,7 +117,7 @@ std::optional<int> CrossingSearch::slowed(const Rectangle& r) const {
 void CrossingSearch::look(const Rectangle& r, int halvings, Search& search) const {
   const auto net = slowed(r);
   const auto [known, count] = search.within(r);
-  if (!net || *net == known || halvings == kMostHalvings) {
+  if (!net || *net == known || halvings == kMaxBisections) {
     return;
   }
   if (count == 0 && std::abs(*net) == 1 && r.high - r.low < 0.2 * r.high &&
@@ -196,7 +195,7 @@ std::optional<FoundCrossing> CrossingSearch::refined(const Rectangle& r, bool sl
   found.mode.eigenvalue = s;
   found.mode.shape = shape;
   const BandedLinearization l = rotor_.matrices(speed);
-  if (std::fabs(s.real()) <= kDoubtfulRealPart * std::abs(s) && growthRadius(l) == 0.0) {
+  if (std::fabs(s.real()) <= kDoubtfulRealPart * std::abs(s) && unstableRootBound(l) == 0.0) {
     const double by_energy = decayByEnergy(l, {s, shape});
     found.mode.eigenvalue = {by_energy > kNoDamping * std::abs(s) ? -by_energy : 0.0, s.imag()};
   }
@@ -219,7 +218,7 @@ void CrossingSearch::addRepeated(const Rectangle& r, bool slows, Search& search)
 /// Of those of lowest frequency, all below one [rad/s] at least.
 WhirlModes CrossingSearch::modesBelow(double frequency, double speed) const {
   const BandedLinearization l = rotor_.matrices(speed);
-  if (l.size() > kMostCompleteCoordinates) {
+  if (l.size() > kMaxCompleteCoordinates) {
     for (std::size_t count = 16; 2 * count < static_cast<std::size_t>(l.size()); count *= 2) {
       auto lowest = lowestWhirlModes(l, stations_, count);
       if (!lowest) {

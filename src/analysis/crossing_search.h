@@ -1,14 +1,14 @@
-// Where whirl modes meet a multiple of the speed, without following any of them. An eigenvalue s of
-// decay rate d meets h w where
+// Crossings of whirl modes with a multiple of the speed, without mode tracking. An eigenvalue s of
+// decay rate d crosses h w where
 //
 //   det D(i h w - d; w) = 0,   D(s; w) = s^2 M + s (C + G) + K + N:
 //
 // two real equations for d and w. Along the border of a rectangle of the plane of d / (h w) and w
-// the phase of the determinant turns once more for each mode within that outruns h w than for each
-// that falls behind it (the degree of a map of the plane). A rectangle whose turns are not those of
-// the crossings known is halved until what is missing is alone in one, where Newton's method finds
-// it. Heavily damped pairs, which begin or cease to vibrate and are no whirls, are outside of the
-// rectangles; light nodes whose roots have no digits disturb no such count.
+// the phase of the determinant makes +1 turn for each enclosed mode that rises above h w and -1 for
+// each that falls below it (the degree of a map of the plane). A rectangle whose number of turns
+// differs from that of the known crossings is bisected until a missing crossing is isolated, and
+// Newton's method finds it. Heavily damped pairs, which begin or cease to vibrate and are no
+// whirls, are outside of the rectangles; inaccurate roots of light nodes do not affect the count.
 #pragma once
 
 #include <array>

@@ -38,7 +38,7 @@ std::vector<Anywhere> places(Eigen::Index n) {
        Eigen::VectorXd::Zero(n)}};
 }
 
-CyclicCoordinates ofNonlinear(const Dynamics& dynamics, const Moment<double>& at) {
+CyclicCoordinates ofNonlinear(const Dynamics& dynamics, const EvaluationPoint<double>& at) {
   const Eigen::Index n = dynamics.dof();
   CyclicCoordinates all;
   all.basis = Eigen::MatrixXd::Identity(n, n);
@@ -104,7 +104,7 @@ CyclicCoordinates rigidBodyMotions(const Linearization& l) {
   if (surelyDefinite(l.stiffness)) {  // and K + N with it, as N takes no part in q^T (K + N) q
     return allShape(n);
   }
-  // Scaled so that a soft coordinate beside a stiff one is not taken for a free one.
+  // Scaled so that a soft coordinate next to a stiff one is not mistaken for a free one.
   const Eigen::MatrixXd stiffness = l.stiffness + l.circulatory;
   Eigen::VectorXd scale(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -134,7 +134,7 @@ CyclicCoordinates rigidBodyMotions(const Linearization& l) {
 }
 
 CyclicCoordinates cyclicCoordinates(const Dynamics& dynamics, double speed) {
-  const Moment<double> at{0.0, 0.0, speed, 0.0};
+  const EvaluationPoint<double> at{0.0, 0.0, speed, 0.0};
   const Dynamics& mean = dynamics.atMeanLoad();
   if (!mean.linear()) {
     return ofNonlinear(mean, at);
@@ -150,7 +150,7 @@ Linearization atFixedMomenta(const Linearization& full, const CyclicCoordinates&
   const Eigen::MatrixXd mass = in_basis(full.mass);
   const Eigen::MatrixXd by_v = in_basis(full.damping + full.gyroscopic);
   Eigen::MatrixXd by_q = in_basis(full.stiffness + full.circulatory);
-  // What is nothing stays nothing: rounding must not make damping of a motion without.
+  // Zero remains zero: rounding must not make damping of a motion without.
   const bool undamped = full.damping.isZero(0.0);
   const bool potential = full.circulatory.isZero(0.0);
   const auto& c = cyclic.conserved;
@@ -166,7 +166,7 @@ Linearization atFixedMomenta(const Linearization& full, const CyclicCoordinates&
   Eigen::MatrixXd d = by_v(s, s);
   Eigen::MatrixXd k = by_q(s, s);
   if (!c.empty()) {
-    // M_cc v_c + M_cs v_s + (D_cs) q_s = 0 to first order: the momenta stay what they are.
+    // M_cc v_c + M_cs v_s + (D_cs) q_s = 0 to first order: the momenta are constant.
     const Ldlt inertia{Eigen::MatrixXd(mass(c, c))};
     const Eigen::MatrixXd by_rate = inertia.solve(Eigen::MatrixXd(mass(c, s)));
     const Eigen::MatrixXd by_place = inertia.solve(Eigen::MatrixXd(by_v(c, s)));
@@ -176,7 +176,7 @@ Linearization atFixedMomenta(const Linearization& full, const CyclicCoordinates&
   }
   Linearization l{0.5 * (m + m.transpose()), 0.5 * (d + d.transpose()), 0.5 * (d - d.transpose()),
                   0.5 * (k + k.transpose()), 0.5 * (k - k.transpose())};
-  if (undamped) {  // by_v is skew, and so is what is left of it
+  if (undamped) {  // by_v is skew, and so is the reduced matrix
     l.damping.setZero();
     if (potential) {
       l.circulatory.setZero();
@@ -211,7 +211,7 @@ Stability reducedStability(const Linearization& linearization, const CyclicCoord
     return stability(linearization, 0, modes);
   }
   if (cyclic.shape.empty() && cyclic.driven.empty()) {
-    Stability free;  // nothing is left that could move otherwise
+    Stability free;  // no other coordinate can move
     free.routh.verdict = Verdict::kMarginal;
     free.damping_ratio = free.log_decrement = std::numeric_limits<double>::quiet_NaN();
     return free;
@@ -226,7 +226,7 @@ Stability stabilityWithRigidBodyModes(const Linearization& linearization,
   }
   Stability s = reducedStability(linearization, cyclic, modes);
   const std::size_t set_aside = 2 * cyclic.conserved.size() + cyclic.driven.size();
-  if (s.eigenvalues.empty() && linearization.mass.rows() <= kMostExactCoordinates) {
+  if (s.eigenvalues.empty() && linearization.mass.rows() <= kMaxExactCoordinates) {
     s.polynomial = {1.0};
   }
   s.eigenvalues.insert(s.eigenvalues.begin(), set_aside, 0.0);

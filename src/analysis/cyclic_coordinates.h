@@ -2,10 +2,10 @@
 // notes, "rotating pendulum", "flywheel with sliding masses"; Goldstein, Classical Mechanics, 2.6).
 //
 // Where nothing drives or damps a cyclic coordinate its momentum p = dL/dv is conserved, and the
-// motion of the others, the shape, follows from the reduced (Routh) system at that momentum. Where
-// something does, its rate settles. Either way the position along it never matters, and its zero
-// eigenvalue says nothing of stability. The rigid-body modes of a linear system are the same thing
-// along a combination of coordinates.
+// motion of the others, the shape, follows from the reduced (Routh) system at that momentum.
+// Otherwise its rate settles to a constant. In both cases the position along it is irrelevant, and
+// its zero eigenvalue is irrelevant to stability. The rigid-body modes of a linear system are the
+// same along a combination of coordinates.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,19 +21,19 @@ struct CyclicCoordinates {
   /// Columns: the directions that the three lists below count. The unit matrix, but of a linear
   /// system with rigid-body modes these and others that complete them. [n x n]
   Eigen::MatrixXd basis;
-  Places shape;      ///< what the forces depend on
+  Places shape;      ///< the coordinates that the forces depend on
   Places conserved;  ///< cyclic, with a conserved momentum
   Places driven;     ///< cyclic, but driven or damped
 
   bool any() const { return !conserved.empty() || !driven.empty(); }
 };
 
-/// Judged in general position, where a derivative that is exactly zero is zero everywhere; the
-/// loads that alternate are at their mean. speed [rad/s], of the shaft.
+/// Evaluated in general position, where a derivative that is exactly zero is zero everywhere;
+/// alternating loads are at their mean. speed [rad/s], of the shaft.
 CyclicCoordinates cyclicCoordinates(const Dynamics& dynamics, double speed);
 
 /// Those of a linear system, its rigid-body modes: along which K + N is zero (to 1e-12, scaled).
-/// Conserved are those that neither damping nor gyroscopic forces see.
+/// Conserved are those that neither damping nor gyroscopic forces act on.
 CyclicCoordinates rigidBodyMotions(const Linearization& linearization);
 
 /// The small motion of the shape, then the driven coordinates, at fixed momenta: the conserved

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 
 constexpr Index kFewStates = 80;        // dense matrices of them are quick
 constexpr int kPointsOfRoot = 8;        // of the circle, for each state
-constexpr double kLargestTurn = 1.0;    // rad, of the determinant from point to point
+constexpr double kMaxTurn = 1.0;        // rad, of the determinant from point to point
 constexpr double kNarrowest = 1.0e-14;  // rad
 constexpr int kIterations = 300;
 constexpr double kConverged = 1.0e-14;
@@ -228,7 +228,7 @@ std::optional<int> DelayedMatrix::countOutside(double radius,
     if (value == 0.0 || then == 0.0) {
       return std::nullopt;
     }
-    if (std::fabs(turn) > kLargestTurn) {
+    if (std::fabs(turn) > kMaxTurn) {
       if (next - angle < kNarrowest) {
         return std::nullopt;
       }

@@ -1,5 +1,5 @@
-// A transition matrix F most of whose states are delays: a row that copies another state is z^-1 of
-// it, in closed form. What is left is a small matrix R(z) with
+// A transition matrix F most of whose states are delays: a row that copies a state is z^-1 of it,
+// in closed form. Elimination of the copies leads to a small matrix R(z) with
 //   det(z I - F) = z^(n - m) det R(z),   R(z) = z I - F_ww - sum_i F_wi z^-k_i e_root(i)^T
 // for the m states w that are no copies and each copy i, k_i samples behind its root. (Transfer
 // functions with a dead time: K. Astrom, B. Wittenmark, Computer-Controlled Systems, 3rd ed., 1997,

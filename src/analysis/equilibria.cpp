@@ -12,11 +12,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kMostCorrections = 40;   // at a point of the path
-constexpr int kMostRestrictions = 60;  // halvings of a step that leaves the bounds
-constexpr int kMostPathSteps = 2000;
-constexpr double kShortestPathStep = 1.0e-7;
-constexpr double kKept = 0.1;         // of its room, by a step
+constexpr int kMaxCorrections = 40;   // at a point of the path
+constexpr int kMaxRestrictions = 60;  // halvings of a step that leaves the bounds
+constexpr int kMaxPathSteps = 2000;
+constexpr double kMinPathStep = 1.0e-7;
+constexpr double kKept = 0.1;         // minimum fraction of the clearance retained in a step
 constexpr double kAtRest = 1.0e-14;   // of the place: a step that is none
 constexpr double kOnPath = 1.0e-6;    // likewise, of a point on the way
 constexpr double kRounding = 1.0e-7;  // likewise, where rounding lets no step be shorter
@@ -39,7 +39,7 @@ bool keepsRoom(const Eigen::VectorXd& after, const Eigen::VectorXd& before) {
 std::optional<Eigen::VectorXd> corrected(const RestProblem& problem, Eigen::VectorXd y,
                                          const Eigen::VectorXd& left, double tolerance) {
   double before = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kMostCorrections; ++i) {
+  for (int i = 0; i < kMaxCorrections; ++i) {
     Eigen::VectorXd step = problem.step(y, problem.pull(y) - left);
     if (!step.allFinite()) {
       return std::nullopt;
@@ -48,7 +48,7 @@ std::optional<Eigen::VectorXd> corrected(const RestProblem& problem, Eigen::Vect
     int halvings = 0;
     while (!keepsRoom(problem.room(y + step), room)) {
       step *= 0.5;
-      if (++halvings > kMostRestrictions) {
+      if (++halvings > kMaxRestrictions) {
         return std::nullopt;
       }
     }
@@ -78,7 +78,7 @@ std::optional<Eigen::VectorXd> restWithinBounds(const RestProblem& problem,
   Eigen::VectorXd y = start;
   double share = 0.0;
   double stride = 1.0;
-  for (int i = 0; i < kMostPathSteps && stride >= kShortestPathStep; ++i) {
+  for (int i = 0; i < kMaxPathSteps && stride >= kMinPathStep; ++i) {
     const double next = std::min(1.0, share + stride);
     const bool last = next == 1.0;
     const auto there = corrected(problem, y, (1.0 - next) * pull, last ? kAtRest : kOnPath);
@@ -99,12 +99,12 @@ std::optional<Eigen::VectorXd> restWithinBounds(const RestProblem& problem,
 namespace {
 
 constexpr int kStartsPerTurn = 8;
-constexpr double kMostStarts = 4096.5;  // in all: fewer a turn where there are many coordinates
-constexpr int kTurnsOfOneSlide = 8;     // searched where a sliding coordinate is the only one
+constexpr double kMaxStarts = 4096.5;  // in all: fewer a turn where there are many coordinates
+constexpr int kTurnsOfOneSlide = 8;    // searched where a sliding coordinate is the only one
 constexpr double kRatesFirst = 1.0e6;
 constexpr double kSameEquilibrium = 1.0e-6;  // rad or lengths: closer ones are one
 
-/// Deviation of q from p in units, angles by the shorter way round, cyclic coordinates aside.
+/// Scaled distance of q from p, angles in the shorter direction, without cyclic coordinates.
 double distance(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Eigen::VectorXd& q,
                 const Eigen::VectorXd& p) {
   const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
@@ -138,7 +138,7 @@ Eigen::VectorXd tidied(const Dynamics& dynamics, Eigen::VectorXd q) {
 
 /// Starts of Newton's method over one coordinate: round the circle, or as far to both sides.
 std::vector<double> starts(const Dynamics& dynamics, Eigen::Index coordinate, std::size_t shapes) {
-  const int most = static_cast<int>(std::pow(kMostStarts, 1.0 / static_cast<double>(shapes)));
+  const int most = static_cast<int>(std::pow(kMaxStarts, 1.0 / static_cast<double>(shapes)));
   const int a_turn = std::clamp(most, 1, kStartsPerTurn);
   const double unit = naturalUnits(dynamics)[coordinate];
   const bool angle = dynamics.coordinates()[static_cast<std::size_t>(coordinate)].isAngle();
@@ -315,7 +315,7 @@ std::optional<Equilibrium> operatingPointAmong(const Dynamics& dynamics,
       known.begin(), known.end(), [](const Equilibrium& e) { return e.stability.bounded(); });
   const bool periodic = std::any_of(known.begin(), known.end(),
                                     [](const Equilibrium& e) { return e.periodic.has_value(); });
-  // A rotor that has lost its stability in its films still whirls about where it would rest.
+  // A rotor that is unstable in its films still whirls about its equilibrium.
   if (!periodic && (first_unbounded != known.begin() || !isJudgedOnlyAtRest(dynamics))) {
     known.erase(first_unbounded, known.end());
   }

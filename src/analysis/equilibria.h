@@ -1,7 +1,7 @@
-// Equilibria of a system at a held shaft speed, and the one it operates about. Of a system with
-// cyclic coordinates these are its steady motions, or relative equilibria: the shape rests while
-// the cyclic coordinates turn or slide at constant rates (a cone of a free rotating pendulum, a
-// flywheel whose masses stand at one radius, a governed engine at its speed).
+// Equilibria of a system at a constant shaft speed, and its operating point. For a system with
+// cyclic coordinates these are its steady motions, or relative equilibria: the shape is constant
+// while the cyclic coordinates turn or slide at constant rates (a cone of a free rotating pendulum,
+// a flywheel with masses at a constant radius, a governed engine at its speed).
 #pragma once
 
 #include <Eigen/Core>
@@ -27,22 +27,23 @@ struct RestProblem {
   std::function<Eigen::VectorXd(const Eigen::VectorXd& y)> pull;
   /// The step of Newton's method at y that answers a pull.
   std::function<Eigen::VectorXd(const Eigen::VectorXd& y, const Eigen::VectorXd& pull)> step;
-  /// What must stay positive, [m], one entry for each bound; empty where nothing is bounded.
+  /// Values that must stay positive, [m], one per bound; empty without bounds.
   std::function<Eigen::VectorXd(const Eigen::VectorXd& y)> room;
 };
 
-/// The place of rest that the path from `start` leads to. On it the pull at the start is taken away
-/// little by little, pull(y) = (1 - s) pull(start), s from 0 to 1 (Newton homotopy; Allgower and
-/// Georg, Introduction to Numerical Continuation Methods, 2003): from journals at the centres of
-/// their bearings s is the share of the load. The whole way is tried in one step first. Nothing
-/// where the start has no room or the path ends before, as where films do not carry the load.
+/// The equilibrium that a homotopy path from `start` leads to. On it the residual force at the
+/// start is gradually removed, pull(y) = (1 - s) pull(start), s from 0 to 1 (Newton homotopy;
+/// Allgower and Georg, Introduction to Numerical Continuation Methods, 2003): from journals at the
+/// centres of their bearings s is the share of the load. The whole path is tried in one step first.
+/// Nothing where the start violates the bounds or the path ends before s = 1, as where films do not
+/// carry the load.
 std::optional<Eigen::VectorXd> restWithinBounds(const RestProblem& problem,
                                                 const Eigen::VectorXd& start);
 
 struct Equilibrium {
   Eigen::VectorXd q;    ///< angles in (-pi, pi]; cyclic coordinates at 0
   Eigen::VectorXd v;    ///< zero but for cyclic coordinates
-  Stability stability;  ///< of the shape, with the momenta as they are (reducedStability)
+  Stability stability;  ///< of the shape, at constant momenta (reducedStability)
   /// The motion about it where what drives the system alternates: the stability is that of this
   /// motion, by its multipliers, and kUncertain where none was found.
   std::optional<PeriodicMotion> periodic = std::nullopt;
@@ -51,12 +52,13 @@ struct Equilibrium {
 /// All equilibria found at a constant speed [rad/s], by Newton's method on the reduced potential
 /// from a grid of starts, ascending: over the circle of an angle, as many natural lengths of a
 /// slide (eight circles where it is the only coordinate); eight starts for each of up to four
-/// coordinates, fewer for more. Conserved momenta are those of the motion
-/// through q and v. Loads that alternate are at their mean; where they have a common period the
-/// stability is that of the periodic motion near by (floquet.h). One where a coordinate has no
-/// inertia (a rotating pendulum without a hub, hanging) has no small motion in these coordinates
-/// and is left out. A linear system has one, where its constant loads hold it, K q = load: a rotor
-/// with weight sags, and its unbalance whirls it about that; none where a load meets no stiffness.
+/// coordinates, fewer for more. Conserved momenta are those of the motion through q and v.
+/// Alternating loads are at their mean; where they have a common period the stability is that of
+/// the nearby periodic motion (floquet.h). An equilibrium where a coordinate has no inertia (a
+/// rotating pendulum without a hub, hanging) has no linearized motion in these coordinates and is
+/// omitted. A linear system has one equilibrium under its constant loads, K q = load: a rotor with
+/// weight sags, and its unbalance whirls it about that; none where a load acts along a direction
+/// without stiffness.
 std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed,
                                     const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 /// With all conserved momenta zero.
@@ -66,13 +68,14 @@ std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed);
 std::optional<Eigen::VectorXd> equilibriumNear(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                                double speed);
 
-/// The bounded equilibrium that the shape creeps to from q (creepsTo): the motion, its swing lost,
-/// ends there, which need not be the nearest. From the top of a hill, and where rates are driven,
-/// the nearest (angles by the shorter way round, cyclic coordinates aside; of several rates of a
-/// driven one the nearest). With the momenta of the motion through q and v; nothing if there is
-/// none. Of a nonlinear rotor without a bounded one the nearest of the others: above its threshold
-/// speed a rotor whirls about an unstable equilibrium. Where loads alternate, bounded or not: the
-/// mean motion, which creeps, may settle where the motion itself grows.
+/// The bounded equilibrium that the overdamped shape creeps to from q (creepsTo): the end of the
+/// motion after its oscillation has decayed, not necessarily the nearest one. From a maximum of the
+/// potential, and where rates are driven, the nearest (angles in the shorter direction, without
+/// cyclic coordinates; of several rates of a driven one the nearest). With the momenta of the
+/// motion through q and v; nothing if there is none. For a nonlinear rotor without a bounded one
+/// the nearest of the others: above its threshold speed a rotor whirls about an unstable
+/// equilibrium. With alternating loads, bounded or not: the creeping mean motion may settle where
+/// the motion itself grows.
 std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& v, double speed);
 /// As operatingPoint(), among equilibria that are known.
@@ -85,11 +88,11 @@ std::optional<Equilibrium> operatingPointAmong(const Dynamics& dynamics,
 bool same(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Equilibrium& a,
           const Equilibrium& b);
 
-/// Whether it can be judged only about an equilibrium: a nonlinear rotor elsewhere, with journals
-/// that no film carries, is in no steady motion, and one that alternating loads drive in no
-/// periodic one. Any other system is linearized where it is.
+/// Whether stability can be evaluated only about an equilibrium: away from it a nonlinear rotor,
+/// with journals that no film carries, is in no steady motion, and one driven by alternating loads
+/// in no periodic one. Any other system is linearized at its present state.
 bool isJudgedOnlyAtRest(const Dynamics& dynamics);
-/// The verdict kUncertain, without numbers: of one like that for which no equilibrium was found.
+/// The verdict kUncertain, without numbers: for such a system without a known equilibrium.
 Stability unjudged();
 
 /// Linearization at rest in q at a constant speed [rad/s].

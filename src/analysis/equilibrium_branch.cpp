@@ -14,16 +14,16 @@ namespace {
 constexpr double kRatio = 1.05;
 constexpr double kSlower = 100.0;  // times below the lowest natural frequency
 constexpr double kFaster = 50.0;   // times above the highest
-// [rad/s], where a first equilibrium is looked for: a film carries nothing at standstill.
+// [rad/s], search speeds for a first equilibrium: a film carries no load at standstill.
 constexpr double kFirstSpeeds[] = {100.0, 30.0, 300.0, 10.0, 1000.0, 3.0, 3000.0, 1.0};
 
 /// The equilibrium nearest to the line of the bearings at the first speed that has one.
-std::optional<RestAt> anyRest(const Dynamics& dynamics) {
+std::optional<EquilibriumAt> anyRest(const Dynamics& dynamics) {
   for (const double speed : kFirstSpeeds) {
-    std::optional<RestAt> nearest;
+    std::optional<EquilibriumAt> nearest;
     for (const Equilibrium& e : equilibria(dynamics, speed)) {
       if (!nearest || e.q.norm() < nearest->q.norm()) {
-        nearest = RestAt{speed, e.q};
+        nearest = EquilibriumAt{speed, e.q};
       }
     }
     if (nearest) {
@@ -35,9 +35,9 @@ std::optional<RestAt> anyRest(const Dynamics& dynamics) {
 
 }  // namespace
 
-std::vector<RestAt> equilibriumBranch(const Dynamics& dynamics, const Eigen::VectorXd& q,
-                                      double speed, double end, double ratio) {
-  std::vector<RestAt> points{{speed, q}};
+std::vector<EquilibriumAt> equilibriumBranch(const Dynamics& dynamics, const Eigen::VectorXd& q,
+                                             double speed, double end, double ratio) {
+  std::vector<EquilibriumAt> points{{speed, q}};
   const bool upward = end > speed;
   while (upward ? points.back().speed < end : points.back().speed > end) {
     const double next = upward ? std::min(points.back().speed * ratio, end)
@@ -52,9 +52,9 @@ std::vector<RestAt> equilibriumBranch(const Dynamics& dynamics, const Eigen::Vec
   return points;
 }
 
-SmallMotionRotor smallMotionRotor(const Dynamics& dynamics) {
-  SmallMotionRotor small;
-  const std::optional<RestAt> start = anyRest(dynamics);
+LinearizedMotionRotor linearizedMotionRotor(const Dynamics& dynamics) {
+  LinearizedMotionRotor small;
+  const std::optional<EquilibriumAt> start = anyRest(dynamics);
   if (!start) {
     return small;
   }
@@ -63,7 +63,7 @@ SmallMotionRotor smallMotionRotor(const Dynamics& dynamics) {
   if (frequencies.empty()) {
     return small;
   }
-  auto points = std::make_shared<std::vector<RestAt>>(
+  auto points = std::make_shared<std::vector<EquilibriumAt>>(
       equilibriumBranch(dynamics, start->q, start->speed,
                         std::min(frequencies.front() / kSlower, start->speed), kRatio));
   std::reverse(points->begin(), points->end());
@@ -76,9 +76,10 @@ SmallMotionRotor smallMotionRotor(const Dynamics& dynamics) {
   small.rotor.speed_dependent = true;
   small.rotor.load = Eigen::VectorXd::Zero(dynamics.dof());
   small.rotor.matrices = [&dynamics, points](double speed) {
-    const auto above = std::lower_bound(points->begin(), points->end(), speed,
-                                        [](const RestAt& p, double s) { return p.speed < s; });
-    const RestAt& near = above == points->end() ? points->back() : *above;
+    const auto above =
+        std::lower_bound(points->begin(), points->end(), speed,
+                         [](const EquilibriumAt& p, double s) { return p.speed < s; });
+    const EquilibriumAt& near = above == points->end() ? points->back() : *above;
     const auto rest = equilibriumNear(dynamics, near.q, speed);
     return linearizationAtRest(dynamics, rest.value_or(near.q), speed);
   };

@@ -1,4 +1,5 @@
-// An equilibrium followed over the speed of the shaft: where a rotor hangs in its bearings at each.
+// Continuation of an equilibrium over the speed of the shaft: the static position of a rotor in its
+// bearings.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,24 +10,23 @@
 
 namespace whirl_twin {
 
-struct RestAt {
+struct EquilibriumAt {
   double speed = 0.0;  ///< [rad/s]
   Eigen::VectorXd q;
 };
 
-/// The equilibrium q at `speed` [rad/s] and on from there to `end`, in strides of a ratio > 1, as
-/// far as there is one; of a linear system q itself, for it is judged anywhere.
-std::vector<RestAt> equilibriumBranch(const Dynamics& dynamics, const Eigen::VectorXd& q,
-                                      double speed, double end, double ratio);
+/// The equilibrium q at `speed` [rad/s] and its continuation to `end`, in steps of a ratio > 1, as
+/// far as it exists; for a linear system q itself, as its stability does not depend on q.
+std::vector<EquilibriumAt> equilibriumBranch(const Dynamics& dynamics, const Eigen::VectorXd& q,
+                                             double speed, double end, double ratio);
 
-/// A nonlinear rotor with a shaft as the linear one that its small motion makes of it: its matrices
-/// about where it hangs at each speed. Its `dof` is 0 where no equilibrium was found. Nothing is
-/// told of what turns with its shaft.
-struct SmallMotionRotor {
+/// Linearization of a nonlinear rotor: its matrices about its equilibrium at each speed. Its `dof`
+/// is 0 where no equilibrium was found. Synchronous forces are not included.
+struct LinearizedMotionRotor {
   LinearRotor rotor;
   double lowest = 0.0;   ///< [rad/s], of the speeds that it was followed over
   double highest = 0.0;  ///< [rad/s]
 };
-SmallMotionRotor smallMotionRotor(const Dynamics& dynamics);
+LinearizedMotionRotor linearizedMotionRotor(const Dynamics& dynamics);
 
 }  // namespace whirl_twin

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr int kLargestDecimalExponent = 5000;
+constexpr int kMaxDecimalExponent = 5000;
 
 bool isDigit(char c) {
   return c >= '0' && c <= '9';
@@ -36,7 +36,7 @@ bool takeSign(const std::string& text, std::size_t& at) {
 }
 
 [[noreturn]] void reject(const std::string& expected, const std::string& found) {
-  throw Refusal(fmt::format("expected {}, found \"{}\"", expected, found));
+  throw InputError(fmt::format("expected {}, found \"{}\"", expected, found));
 }
 
 ScaledFloat normalised(long double mantissa, std::int64_t exponent) {
@@ -68,8 +68,8 @@ Rational parseRational(const std::string& text) {
       reject(expected, text);
     }
     power.erase(0, std::min(power.find_first_not_of('0'), power.size() - 1));
-    if (power.size() > 4 || std::stoi(power) > kLargestDecimalExponent) {
-      reject(fmt::format("a decimal exponent between -{0} and {0}", kLargestDecimalExponent), text);
+    if (power.size() > 4 || std::stoi(power) > kMaxDecimalExponent) {
+      reject(fmt::format("a decimal exponent between -{0} and {0}", kMaxDecimalExponent), text);
     }
     exponent += negative_exponent ? -std::stoi(power) : std::stoi(power);
   }
@@ -103,7 +103,7 @@ ComplexRational parseComplex(const std::string& text) {
   try {
     return {begin == 0 ? Rational(0) : parseRational(body.substr(0, begin)),
             parseRational(imaginary)};
-  } catch (const Refusal&) {
+  } catch (const InputError&) {
     reject("a finite decimal or complex number such as 3, 2i or 3+2i", text);
   }
 }

@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <string>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -29,11 +29,11 @@ struct ComplexRational {
 };
 
 /// The exact value of a decimal number such as "0.1", "1e-200" or "-2.5E+3".
-/// Throws Refusal for anything else: text, nan, inf, an exponent beyond +-5000.
+/// Throws InputError for anything else: text, nan, inf, an exponent beyond +-5000.
 Rational parseRational(const std::string& text);
 
 /// The exact value of "3", "3+2i", "-1e-3-2.5i", "2i", "-i" or the same with j.
-/// Throws Refusal as parseRational() does.
+/// Throws InputError as parseRational() does.
 ComplexRational parseComplex(const std::string& text);
 
 /// What an exact computation may cost, in products of 64-bit words. It is counted, not timed: the
@@ -41,8 +41,8 @@ ComplexRational parseComplex(const std::string& text);
 class ExactBudget {
  public:
   explicit ExactBudget(double products) : left_(products) {}
-  /// For a step whose cost goes as the square of the length of this number, which its growth in
-  /// long computations drives up. Throws ExactBudgetSpent when nothing is left.
+  /// Charges the budget for a step whose cost grows with the square of the length of this number.
+  /// Throws ExactBudgetSpent when the budget is exhausted.
   void spendOn(const Integer& number);
 
  private:

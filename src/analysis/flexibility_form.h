@@ -1,12 +1,12 @@
-// Eigenvalues of a system whose matrices hold entries of very different sizes: supports of 1e20 N/m
-// beside a shaft of 1e6 N/m, nodes of 1e-6 kg beside a disc of 10 kg. The state matrix has the
-// largest eigenvalues as its norm, and its rounding takes the digits of the lowest. With
-// K = L L^T, M = R R^T and the state (y, z) = (L^T q, s R^T q) the inverse problem
+// Eigenvalues of a system whose matrix entries differ by orders of magnitude: supports of 1e20 N/m
+// and a shaft of 1e6 N/m, nodes of 1e-6 kg and a disc of 10 kg. The norm of the state matrix is
+// that of the largest eigenvalues, and its rounding errors exceed the lowest. With K = L L^T, M = R
+// R^T and the state (y, z) = (L^T q, s R^T q) the inverse problem
 //
 //   [ -(I + N')^-1 C'   -(I + N')^-1 F ] [y]         [y]     C' = L^-1 (C + G) L^-T,
 //   [  F^T                0            ] [z] = (1/s) [z],    N' = L^-1 N L^-T,  F = L^-1 R,
 //
-// has the lowest frequencies as its largest eigenvalues, and what is stiff or light as nearly zero
+// has the lowest frequencies as its largest eigenvalues, and stiff or light parts as nearly zero
 // ones. The scalar product of its states is that of the energy: without damping and circulatory
 // forces it is skew. Neither factor mixes large with small: their errors are those of the matrices
 // scaled to unit diagonals (J. Demmel, K. Veselic, SIAM J. Matrix Anal. Appl. 13, 1992).

@@ -22,15 +22,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kStepAngle = 0.15;  // [rad] of the fastest small motion, in a first step
-constexpr int kFewestSteps = 32;     // of a period
-constexpr int kMostSteps = 1 << 17;
-constexpr int kMostShots = 12;
+constexpr int kMinSteps = 32;        // of a period
+constexpr int kMaxSteps = 1 << 17;
+constexpr int kMaxShots = 12;
 constexpr double kClosed = 1.0e-11;      // of the motion: what it may be off or miss by
 constexpr double kAgree = 1.0e-11;       // of the largest multiplier, as steps are doubled
 constexpr double kFar = 1.0e6;           // units: no motion of interest is that wide
-constexpr int kMostRepeats = 64;         // of the slowest load in a common period
+constexpr int kMaxRepeats = 64;          // of the slowest load in a common period
 constexpr double kCommensurate = 1e-12;  // of a ratio of frequencies
-constexpr double kLeastTolerance = 1.0e-10;
+constexpr double kMinTolerance = 1.0e-10;
 constexpr std::array<double, 3> kTimes{0.0, 0.7310585786, 12.98254};  // [s], in no simple ratio
 
 /// A state and the deviations from it: columns (state, transition matrix). [2 n x (1 + 2 n)]
@@ -38,7 +38,7 @@ MatrixXd slopeOf(const Dynamics& dynamics, const MatrixXd& x, double time, doubl
   const Index n = x.rows() / 2;
   const VectorXd q = x.col(0).head(n);
   const VectorXd v = x.col(0).tail(n);
-  const Moment<double> at{time, speed * time, speed, 0.0};
+  const EvaluationPoint<double> at{time, speed * time, speed, 0.0};
   const VectorXd a = dynamics.acceleration(q, v, at);
   const Linearization l = dynamics.linearization(q, v, a, at);
   const auto deviations = x.rightCols(2 * n);
@@ -52,7 +52,7 @@ MatrixXd slopeOf(const Dynamics& dynamics, const MatrixXd& x, double time, doubl
   return slope;
 }
 
-/// Where a state comes to in a period, and the transition matrix beside it.
+/// The state after a period, and the transition matrix.
 MatrixXd afterPeriod(const Dynamics& dynamics, const VectorXd& start, double speed, double period,
                      int steps) {
   using dormand_prince::kA;
@@ -87,14 +87,14 @@ MatrixXd afterPeriod(const Dynamics& dynamics, const VectorXd& start, double spe
 int firstSteps(const Dynamics& dynamics, const SteadyMotion& start, double speed, double period) {
   double fastest = 0.0;
   for (const double part : {0.0, 0.25, 0.5, 0.75}) {
-    const Moment<double> at{part * period, speed * part * period, speed, 0.0};
+    const EvaluationPoint<double> at{part * period, speed * part * period, speed, 0.0};
     const VectorXd a = dynamics.acceleration(start.q, start.v, at);
     for (const Complex& root : eigenvalues(dynamics.linearization(start.q, start.v, a, at))) {
       fastest = std::max(fastest, std::abs(root));
     }
   }
   const double steps = std::ceil(period * fastest / kStepAngle);
-  return steps < kMostSteps ? std::max(kFewestSteps, static_cast<int>(steps)) : kMostSteps;
+  return steps < kMaxSteps ? std::max(kMinSteps, static_cast<int>(steps)) : kMaxSteps;
 }
 
 /// From x on to where a period leads back to it; the transition matrix there, in `unit`s. Nothing
@@ -102,7 +102,7 @@ int firstSteps(const Dynamics& dynamics, const SteadyMotion& start, double speed
 std::optional<MatrixXd> shoot(const Dynamics& dynamics, const VectorXd& unit, double speed,
                               double period, int steps, VectorXd& x) {
   const Index size = x.size();
-  for (int shot = 0; shot <= kMostShots; ++shot) {
+  for (int shot = 0; shot <= kMaxShots; ++shot) {
     const MatrixXd after = afterPeriod(dynamics, x, speed, period, steps);
     const VectorXd missed = (after.col(0) - x).cwiseQuotient(unit);
     const MatrixXd transition =
@@ -140,7 +140,7 @@ std::optional<double> commonPeriod(const std::vector<double>& frequencies) {
     return std::nullopt;
   }
   const double slowest = *std::min_element(frequencies.begin(), frequencies.end());
-  for (int repeats = 1; repeats <= kMostRepeats; ++repeats) {
+  for (int repeats = 1; repeats <= kMaxRepeats; ++repeats) {
     if (std::all_of(frequencies.begin(), frequencies.end(), [&](double frequency) {
           const double turns = repeats * frequency / slowest;
           return std::fabs(turns - std::round(turns)) <= kCommensurate * turns;
@@ -152,12 +152,13 @@ std::optional<double> commonPeriod(const std::vector<double>& frequencies) {
 }
 
 /// Do the equations change from one moment to another, at some place?
-bool differ(const Dynamics& dynamics, const Moment<double>& one, const Moment<double>& other) {
+bool differ(const Dynamics& dynamics, const EvaluationPoint<double>& one,
+            const EvaluationPoint<double>& other) {
   const Index n = dynamics.dof();
   const VectorXd q = VectorXd::LinSpaced(n, 0.7, 1.3) * dynamics.naturalLength();
   const VectorXd v = VectorXd::LinSpaced(n, 0.9, -1.7);
   if (!dynamics.linear()) {
-    return dynamics.unbalancedForce(q, v, one) != dynamics.unbalancedForce(q, v, other);
+    return dynamics.residualForce(q, v, one) != dynamics.residualForce(q, v, other);
   }
   const VectorXd rest = VectorXd::Zero(n);
   const Linearization a = dynamics.linearization(q, v, rest, one);
@@ -168,14 +169,14 @@ bool differ(const Dynamics& dynamics, const Moment<double>& one, const Moment<do
 
 /// The nearest to the unit circle that counts as off it.
 double toleranceOf(const PeriodicMotion& motion) {
-  return std::max(kLeastTolerance, 10.0 * motion.error);
+  return std::max(kMinTolerance, 10.0 * motion.error);
 }
 
 }  // namespace
 
 TimeDependence timeDependence(const Dynamics& dynamics, double speed) {
   TimeDependence found;
-  if (dynamics.dof() > kMostPeriodicCoordinates) {
+  if (dynamics.dof() > kMaxPeriodicCoordinates) {
     found.varies = !dynamics.linear() && &dynamics.atMeanLoad() != &dynamics;
     return found;
   }
@@ -213,14 +214,14 @@ std::optional<PeriodicMotion> periodicMotionNear(const Dynamics& dynamics, doubl
   x << start.q, start.v;
   int steps = firstSteps(dynamics, start, speed, period);
   std::optional<MatrixXd> coarse = shoot(dynamics, unit, speed, period, steps, x);
-  while (coarse && 2 * steps <= kMostSteps) {
+  while (coarse && 2 * steps <= kMaxSteps) {
     steps *= 2;
     const std::optional<MatrixXd> fine = shoot(dynamics, unit, speed, period, steps, x);
     if (!fine) {
       break;
     }
     const double error = (*fine - *coarse).norm();
-    if (error <= kAgree * fine->norm() || 2 * steps > kMostSteps) {
+    if (error <= kAgree * fine->norm() || 2 * steps > kMaxSteps) {
       return PeriodicMotion{period, x.head(n), x.tail(n), multipliersOf(*fine), error};
     }
     coarse = fine;

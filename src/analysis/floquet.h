@@ -1,8 +1,8 @@
-// Small deviations from a periodic motion. Where what drives a system alternates, the coefficients
-// of its small motion repeat with a period T, and no eigenvalue of a mean of them decides: the
+// Floquet stability of a periodic motion. Under periodic excitation the coefficients of the
+// linearized motion have a period T, and eigenvalues of their mean do not determine stability: the
 // deviations after T are the transition matrix times those before, and decay where its eigenvalues,
-// the Floquet multipliers, lie inside the unit circle (G. Floquet, Ann. sci. de l'ENS 12, 1883;
-// A. H. Nayfeh & D. T. Mook, Nonlinear Oscillations, 1979, 5.2).
+// the Floquet multipliers, lie inside the unit circle (G. Floquet, Ann. sci. de l'ENS 12, 1883; A.
+// H. Nayfeh & D. T. Mook, Nonlinear Oscillations, 1979, 5.2).
 //
 // The motion is found by shooting and the transition matrix from the exact variational equations,
 // both by the method of order 8 of Dormand and Prince, with as many steps as leave the multipliers
@@ -20,21 +20,22 @@
 
 namespace whirl_twin {
 
-/// Motions of more coordinates are not judged by multipliers.
-constexpr int kMostPeriodicCoordinates = 8;
+/// Multipliers are not computed for motions of more coordinates.
+constexpr int kMaxPeriodicCoordinates = 8;
 
-/// How the equations of motion depend on time, at a constant speed of the shaft.
+/// Time dependence of the equations of motion, at a constant speed of the shaft.
 struct TimeDependence {
-  /// They do so, beyond loads that a linear system's small motion does not see.
+  /// Whether they depend on time, other than by loads that do not affect the linearized motion of a
+  /// linear system.
   bool varies = false;
-  /// [s], after which they repeat; nothing: not known, the frequencies have none in common, or the
-  /// motion under the mean loads is what is judged.
+  /// [s], the common period; nothing: unknown, the frequencies have no common period, or the motion
+  /// under the mean loads is evaluated.
   std::optional<double> period;
 };
 
-/// At a shaft speed [rad/s]. No period: of more than kMostPeriodicCoordinates coordinates, of
-/// equations with cyclic ones, and of a nonlinear rotor that nothing but its unbalance drives: that
-/// is judged about the equilibrium that it whirls around.
+/// At a shaft speed [rad/s]. No period: of more than kMaxPeriodicCoordinates coordinates, of
+/// equations with cyclic ones, and of a nonlinear rotor that only its unbalance drives: its
+/// stability is that of the equilibrium that it whirls around.
 TimeDependence timeDependence(const Dynamics& dynamics, double speed);
 
 struct PeriodicMotion {
@@ -55,7 +56,7 @@ std::optional<PeriodicMotion> periodicMotionNear(const Dynamics& dynamics, doubl
 std::vector<std::complex<double>> exponentsOf(const PeriodicMotion& motion,
                                               const std::vector<std::complex<double>>& mean_roots);
 
-/// Does a deviation grow, beyond the error of the multipliers?
+/// Whether a deviation grows, beyond the error of the multipliers.
 bool grows(const PeriodicMotion& motion);
 
 /// The verdict by the multipliers, and margins from the exponents: without a polynomial. kMarginal:

@@ -8,7 +8,7 @@
 #include "algebra/dense.h"
 #include "analysis/banded_rotor.h"
 #include "analysis/natural_modes.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -21,7 +21,7 @@ constexpr double kSingularReturn = 1e-13;  // a few hundred roundings of terms o
 Eigen::MatrixXcd receptance(const Linearization& system, double frequency) {
   const double w = frequency;
   if (!std::isfinite(w)) {
-    throw Refusal("frequency response: expected a finite frequency [rad/s]");
+    throw InputError("frequency response: expected a finite frequency [rad/s]");
   }
   Eigen::MatrixXcd dynamic_stiffness(system.mass.rows(), system.mass.cols());
   dynamic_stiffness.real() = system.stiffness + system.circulatory - w * w * system.mass;
@@ -51,8 +51,8 @@ Eigen::MatrixXcd receptance(const Linearization& system, double frequency) {
 Eigen::VectorXcd steadyResponse(const Linearization& system, const Eigen::VectorXcd& force,
                                 double frequency) {
   if (force.size() != system.mass.rows()) {
-    throw Refusal(fmt::format("frequency response: expected a force of {} entries, found {}",
-                              system.mass.rows(), force.size()));
+    throw InputError(fmt::format("frequency response: expected a force of {} entries, found {}",
+                                 system.mass.rows(), force.size()));
   }
   return receptance(system, frequency) * force;
 }

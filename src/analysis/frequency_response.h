@@ -39,7 +39,7 @@ struct ForcedResponse {
 };
 
 /// At each of the frequencies [rad/s], the shaft at `speed` [rad/s], `direction` [dof] of the
-/// force. Frequencies at which nothing limits the response, undamped resonances, are left out.
+/// force. Frequencies at which nothing limits the response, undamped resonances, are omitted.
 std::vector<ForcedResponse> forcedResponse(const LinearRotor& rotor,
                                            const std::vector<Station>& stations, double speed,
                                            const Eigen::VectorXd& direction,
@@ -54,7 +54,7 @@ std::vector<double> frequenciesAround(const std::vector<WhirlMode>& modes, doubl
 
 /// [a] of a stiffness [n x n], in the inverse of its units (m/N between lengths), symmetric.
 /// Throws RunFailure, with the reason in words, for a stiffness that carries no load at
-/// rest: one with rigid-body modes, or negative for some motion; Refusal for one that
+/// rest: one with rigid-body modes, or negative for some motion; InputError for one that
 /// is not symmetric.
 Eigen::MatrixXd influenceCoefficients(const Eigen::MatrixXd& stiffness);
 

@@ -10,11 +10,11 @@
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/equilibria.h"
 #include "analysis/equilibrium_branch.h"
-#include "analysis/growth_radius.h"
 #include "analysis/linearized_motion.h"
 #include "analysis/lowest_eigenvalues.h"
 #include "analysis/polynomial_roots.h"
 #include "analysis/stability.h"
+#include "analysis/unstable_root_bound.h"
 
 namespace whirl_twin {
 
@@ -27,18 +27,18 @@ constexpr int kFewerStrides = 120;  // where each costs milliseconds
 constexpr double kGrows = 1.0e-9;   // of a frequency: no rounding
 
 /// At a speed, without the rigid-body modes of a linear rotor, whose zeros rounding would scatter.
-SmallMotion ofMeanLoads(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed) {
+LinearizedMotion ofMeanLoads(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed) {
   const Linearization l = linearizationAtRest(dynamics, q, speed);
   if (!dynamics.linear()) {
     return {l, 0};
   }
   const CyclicCoordinates rigid = rigidBodyMotions(l);
-  return rigid.any() ? SmallMotion{atFixedMomenta(l, rigid), rigid.driven.size()}
-                     : SmallMotion{l, 0};
+  return rigid.any() ? LinearizedMotion{atFixedMomenta(l, rigid), rigid.driven.size()}
+                     : LinearizedMotion{l, 0};
 }
 
-SmallMotion motionAt(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed) {
-  SmallMotion small = ofMeanLoads(dynamics, q, speed);
+LinearizedMotion motionAt(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed) {
+  LinearizedMotion small = ofMeanLoads(dynamics, q, speed);
   if (const auto period = timeDependence(dynamics, speed).period) {
     small.periodic =
         periodicMotionNear(dynamics, speed, *period, {q, Eigen::VectorXd::Zero(q.size())});
@@ -46,7 +46,7 @@ SmallMotion motionAt(const Dynamics& dynamics, const Eigen::VectorXd& q, double 
   return small;
 }
 
-/// Where it rests at a speed, near where it did; a linear rotor is judged anywhere.
+/// The equilibrium at a speed near the previous one; for a linear rotor q itself.
 std::optional<Eigen::VectorXd> judgedPlaceNear(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                                double speed) {
   return dynamics.linear() ? q : equilibriumNear(dynamics, q, speed);
@@ -59,27 +59,28 @@ double lowestFrequency(const Dynamics& dynamics, const Eigen::VectorXd& q, doubl
   if (!dynamics.hasShaft()) {
     return kNone;
   }
-  const SmallMotion motion = motionAt(dynamics, q, speed);
+  const LinearizedMotion motion = motionAt(dynamics, q, speed);
   if (motion.matrices.mass.rows() == 0) {
-    return kNone;  // nothing is left that could move otherwise
+    return kNone;  // no other coordinate can move
   }
   const auto frequencies = stability(motion.matrices, motion.zeros).natural_frequencies;
   return frequencies.empty() ? kNone : std::max(frequencies.front(), 1.0e-6 * std::max(1.0, speed));
 }
 
 int stridesFor(const Dynamics& dynamics) {
-  return dynamics.dof() <= kMostExactCoordinates ? kSpeedStrides : kFewerStrides;
+  return dynamics.dof() <= kMaxExactCoordinates ? kSpeedStrides : kFewerStrides;
 }
 
-/// How fast motions of a long rotor grow, in parts of their frequency, by the lowest eigenvalues.
+/// Growth of the motions of a rotor with many coordinates, relative to their frequency, by the
+/// lowest eigenvalues.
 class LowestGrowth {
  public:
   explicit LowestGrowth(const LinearRotor& rotor) : rotor_(rotor) {}
 
-  /// At a speed [rad/s], negative where none grows. Nothing where lowestRoots() tells nothing.
+  /// At a speed [rad/s], negative where none grows. Nothing where lowestRoots() has no result.
   std::optional<double> at(double speed) {
     const BandedLinearization l = rotor_.matrices(speed);
-    const auto radius = growthRadius(l);
+    const auto radius = unstableRootBound(l);
     if (radius == 0.0) {
       return -1.0;
     }
@@ -92,7 +93,7 @@ class LowestGrowth {
     }
     reach_ = few ? reach_ : found->radius;
     double fastest = -1.0;
-    for (const PencilRoot& root : found->roots) {
+    for (const RefinedEigenpair& root : found->roots) {
       fastest = std::max(fastest, root.value.real() / std::abs(root.value));
     }
     return fastest;
@@ -103,8 +104,8 @@ class LowestGrowth {
   double reach_ = 0.0;  // [1/s], of the lowest eigenvalues
 };
 
-/// That of a linear rotor of more than kMostCompleteCoordinates, by its lowest eigenvalues. Nothing
-/// at all where they cannot be told.
+/// That of a linear rotor of more than kMaxCompleteCoordinates, by its lowest eigenvalues. The
+/// outer optional is empty where they cannot be computed.
 std::optional<std::optional<double>> ofLongRotor(const LinearRotor& rotor, double lowest) {
   LowestGrowth growth(rotor);
   const double first = kNearStandstill * lowest;
@@ -131,7 +132,7 @@ std::optional<std::optional<double>> ofLongRotor(const LinearRotor& rotor, doubl
 }
 
 /// Where the verdict changes between two speeds of which one is unstable.
-double thresholdBetween(const Dynamics& dynamics, GrowthTest& test, const RestAt& below,
+double thresholdBetween(const Dynamics& dynamics, GrowthTest& test, const EquilibriumAt& below,
                         double high, bool unstable_above) {
   double low = below.speed;
   while (high - low > 1.0e-15 * high) {
@@ -148,17 +149,17 @@ double thresholdBetween(const Dynamics& dynamics, GrowthTest& test, const RestAt
 
 /// The speed above which an equilibrium is unstable that is so at `present`; 0 where it is so at
 /// every speed down to `least` [rad/s].
-double instabilitySpeedBelow(const Dynamics& dynamics, GrowthTest& test, const RestAt& present,
-                             double least) {
+double instabilitySpeedBelow(const Dynamics& dynamics, GrowthTest& test,
+                             const EquilibriumAt& present, double least) {
   const double ratio = std::pow(kInstabilityReach / kNearStandstill, 1.0 / stridesFor(dynamics));
-  RestAt unstable = present;
+  EquilibriumAt unstable = present;
   while (unstable.speed > least) {
     const double slower = unstable.speed / ratio;
     auto rest = judgedPlaceNear(dynamics, unstable.q, slower);
     if (!rest) {
       break;
     }
-    RestAt next{slower, std::move(*rest)};
+    EquilibriumAt next{slower, std::move(*rest)};
     if (!test.unstable(motionAt(dynamics, next.q, slower))) {
       return thresholdBetween(dynamics, test, next, unstable.speed, true);
     }
@@ -176,14 +177,14 @@ std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::Ve
   if (std::isnan(lowest)) {
     return std::nullopt;
   }
-  if (dynamics.linear() && dynamics.dof() > kMostCompleteCoordinates) {
+  if (dynamics.linear() && dynamics.dof() > kMaxCompleteCoordinates) {
     if (const auto found = ofLongRotor(dynamics.linearRotor(), lowest)) {
       return *found;
     }
   }
   const double first = std::max(from, kNearStandstill * lowest);
   const double last = kInstabilityReach * lowest;
-  std::vector<RestAt> passed{{from, q}};
+  std::vector<EquilibriumAt> passed{{from, q}};
   GrowthTest test;
   if (!dynamics.linear() && surelyUnstable(motionAt(dynamics, q, from))) {
     return instabilitySpeedBelow(dynamics, test, passed.back(), kNearStandstill * lowest);
@@ -221,12 +222,12 @@ std::vector<StabilityThreshold> stabilityThresholds(const Dynamics& dynamics,
   const double last = kInstabilityReach * lowest;
   const double ratio = std::pow(last / first, 1.0 / stridesFor(dynamics));
   const double from = dynamics.linear() ? first : std::max(std::fabs(speed), first);
-  std::vector<RestAt> points = equilibriumBranch(dynamics, q, from, first, ratio);
+  std::vector<EquilibriumAt> points = equilibriumBranch(dynamics, q, from, first, ratio);
   if (dynamics.linear()) {
     points.push_back({0.0, q});
   }
   std::reverse(points.begin(), points.end());
-  const std::vector<RestAt> upward =
+  const std::vector<EquilibriumAt> upward =
       equilibriumBranch(dynamics, q, from, std::max(last, from), ratio);
   points.insert(points.end(), upward.begin() + 1, upward.end());
 
@@ -234,8 +235,8 @@ std::vector<StabilityThreshold> stabilityThresholds(const Dynamics& dynamics,
   GrowthTest test;
   bool before = false;  // unstable
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SmallMotion motion = motionAt(dynamics, points[i].q, points[i].speed);
-    // What neither grows nor decays for sure costs an exact test, and only beside what grows.
+    const LinearizedMotion motion = motionAt(dynamics, points[i].q, points[i].speed);
+    // Inconclusive growth or decay requires an exact test, and only next to a growing motion.
     const bool sure = surelyUnstable(motion);
     const bool now = sure || (before && test.unstable(motion));
     if (i == 0) {

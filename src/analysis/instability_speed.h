@@ -1,4 +1,4 @@
-// The shaft speeds at which a system loses its stability, or finds it again.
+// Shaft speeds at which a system becomes unstable, or stable again.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,14 +9,14 @@
 
 namespace whirl_twin {
 
-/// The lowest speed [rad/s] above which the state the system operates about is unstable, searched
-/// to 1000 times its lowest natural frequency; nothing if there is none, or no shaft. A linear
-/// rotor is judged from standstill on; any other model follows the equilibrium q from `speed`
-/// [rad/s] up, or down where it is unstable there (0: at every slower speed too). Where the
-/// eigenvalues leave it open, Routh's test decides, so the threshold is exact to rounding; beyond
-/// kMostExactCoordinates, or where exact numbers become too long, the eigenvalues alone do, to
-/// about 1e-10 of it; of more than kMostCompleteCoordinates the lowest modes, and all within the
-/// radius that motions grow in, where one is known (growth_radius.h).
+/// The lowest speed [rad/s] above which the operating state is unstable, searched to 1000 times its
+/// lowest natural frequency; nothing if there is none, or no shaft. A linear rotor is evaluated
+/// from standstill; for any other model the equilibrium q is continued from `speed` [rad/s] up, or
+/// down where it is unstable there (0: unstable at every lower speed too). Where the eigenvalues
+/// are inconclusive, Routh's test decides, so the threshold is exact to rounding; beyond
+/// kMaxExactCoordinates, or where exact numbers become too long, the eigenvalues alone do, to
+/// about 1e-10 of it; for more than kMaxCompleteCoordinates the lowest modes, and all within the
+/// bound of the unstable roots, where one is known (unstable_root_bound.h).
 std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                        double speed);
 

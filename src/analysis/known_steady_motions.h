@@ -1,8 +1,7 @@
-// The steady motions of a rotor whose spin is free and driven, or of a system that alternating
-// loads drive, kept from one judgement to the next:
-// they follow from its parameters alone, so that the one it operates about now is picked from those
-// that are known. To find all anew takes hundreds of runs of Newton's method; that is done rarely,
-// from the rates that the motion has then, for one that had not been found.
+// Cache of the steady motions of a rotor with free driven spin, or of a system with alternating
+// loads, between evaluations: they depend on its parameters alone, so that the present operating
+// point is selected from the known ones. A complete search takes hundreds of runs of Newton's
+// method; it is done rarely, from the present rates, for motions not found before.
 #pragma once
 
 #include <Eigen/Core>

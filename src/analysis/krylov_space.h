@@ -1,5 +1,5 @@
-// Block Krylov space of the inverse linearization of a quadratic pencil (lowest_roots.h), grown as
-// far as it takes: V^H V = 1, B V = V H + rest, and the eigenvalues of H near those of B.
+// Block Krylov space of the inverse linearization of a quadratic pencil (lowest_roots.h), extended
+// as needed: V^H V = 1, B V = V H + rest, and the eigenvalues of H near those of B.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ constexpr Eigen::Index kKrylovBlock = 2;
 /// A root as the Krylov space has it.
 struct Ritz {
   std::complex<double> root;
-  double residual = 0.0;   ///< of 1/s, in parts of it
+  double residual = 0.0;   ///< of 1/s, relative
   Eigen::VectorXcd parts;  ///< of the basis
 };
 
@@ -137,7 +137,7 @@ class KrylovSpace {
       if (rest != nullptr) {
         (*rest)(j, j) = spent ? 0.0 : length;
       }
-      if (spent) {  // an invariant space: go on with another direction
+      if (spent) {  // an invariant space: continue with a new direction
         refill(column);
         for (int pass = 0; pass < 2; ++pass) {
           column -= basis_.leftCols(known_) * (basis_.leftCols(known_).adjoint() * column);

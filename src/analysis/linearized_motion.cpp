@@ -65,14 +65,14 @@ double largestOfCubic(double b, double e, double f) {
   }
   const double slope = (3.0 * y - 2.0 * b) * y + e;
   const double step = slope == 0.0 ? 0.0 : (((y - b) * y + e) * y + f) / slope;
-  // A double root has no slope: it is left as it is.
+  // A double root has zero slope: it is unchanged.
   return std::fabs(step) <= kPolish * (std::fabs(b) + std::fabs(y)) ? y - step : y;
 }
 
 QuadraticFactors factorsOf(const Monic& m) {
   const double y =
       largestOfCubic(m.b, m.a * m.c - 4.0 * m.d, 4.0 * m.b * m.d - m.a * m.a * m.d - m.c * m.c);
-  // (p - r)^2 and (q - t)^2; their product is what the coefficient of s asks for.
+  // (p - r)^2 and (q - t)^2; their product follows from the coefficient of s.
   const double across = m.a * y - 2.0 * m.c;
   double u2 = m.a * m.a - 4.0 * m.b + 4.0 * y;
   double v2 = y * y - 4.0 * m.d;
@@ -95,13 +95,13 @@ QuadraticFactors factorsOf(const Monic& m) {
   return f;
 }
 
-/// How far the product is from the quartic, in parts of its terms.
+/// Deviation of the product from the quartic, relative to its terms.
 std::array<double, 4> residual(const Monic& m, const QuadraticFactors& f) {
   return {m.a - (f.p + f.r), m.b - (f.q + f.t + f.p * f.r), m.c - (f.p * f.t + f.q * f.r),
           m.d - f.q * f.t};
 }
 
-/// Newton's method on the factors; where they are one it stands still.
+/// Newton's method on the factors; no step where they coincide (singular).
 void correct(const Monic& m, QuadraticFactors& f) {
   const auto [e1, e2, e3, e4] = residual(m, f);
   const double apart = f.p - f.r;
@@ -217,9 +217,9 @@ std::array<double, 5> quarticOf(const Linearization& l) {
   return quartic;
 }
 
-/// The fastest growth of a deviation, in parts of the largest eigenvalue: to some digits where it
+/// The fastest growth of a deviation, relative to the largest eigenvalue: to some digits where it
 /// is far from none.
-double growth(const SmallMotion& motion) {
+double growth(const LinearizedMotion& motion) {
   if (motion.matrices.mass.rows() == 2 && motion.zeros == 0) {
     const QuarticJudgement quick = judgeQuartic(quarticOf(motion.matrices));
     const double found = quick.rightmost.real() / quick.largest;
@@ -236,13 +236,14 @@ double growth(const SmallMotion& motion) {
 
 }  // namespace
 
-std::optional<SmallMotion> smallMotionAbout(const Dynamics& dynamics,
-                                            const CyclicCoordinates& cyclic,
-                                            const SteadyMotion& motion, double speed,
-                                            const std::optional<PeriodicMotion>& near) {
+std::optional<LinearizedMotion> linearizedMotionAbout(const Dynamics& dynamics,
+                                                      const CyclicCoordinates& cyclic,
+                                                      const SteadyMotion& motion, double speed,
+                                                      const std::optional<PeriodicMotion>& near) {
   const Linearization l = linearizationAbout(dynamics, motion.q, motion.v, speed);
-  SmallMotion small = cyclic.any() ? SmallMotion{atFixedMomenta(l, cyclic), cyclic.driven.size()}
-                                   : SmallMotion{l, 0};
+  LinearizedMotion small = cyclic.any()
+                               ? LinearizedMotion{atFixedMomenta(l, cyclic), cyclic.driven.size()}
+                               : LinearizedMotion{l, 0};
   if (const auto period = timeDependence(dynamics, speed).period) {
     small.periodic = periodicMotionNear(dynamics, speed, *period,
                                         near ? SteadyMotion{near->q, near->v} : motion);
@@ -253,7 +254,7 @@ std::optional<SmallMotion> smallMotionAbout(const Dynamics& dynamics,
   return small;
 }
 
-std::complex<double> fastestGrowing(const SmallMotion& motion) {
+std::complex<double> fastestGrowing(const LinearizedMotion& motion) {
   if (motion.matrices.mass.rows() == 0) {
     return 0.0;
   }
@@ -263,7 +264,7 @@ std::complex<double> fastestGrowing(const SmallMotion& motion) {
                            [](const auto& a, const auto& b) { return a.real() < b.real(); });
 }
 
-bool surelyUnstable(const SmallMotion& motion) {
+bool surelyUnstable(const LinearizedMotion& motion) {
   if (motion.periodic) {
     return grows(*motion.periodic);
   }
@@ -271,7 +272,7 @@ bool surelyUnstable(const SmallMotion& motion) {
          growth(motion) > kGrowth;
 }
 
-bool GrowthTest::unstable(const SmallMotion& motion) {
+bool GrowthTest::unstable(const LinearizedMotion& motion) {
   if (motion.periodic) {
     return grows(*motion.periodic);
   }

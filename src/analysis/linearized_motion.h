@@ -1,7 +1,7 @@
-// A quartic, the characteristic polynomial of two coordinates, judged in well under a microsecond:
-// Routh's first column in doubles, with a bound of its rounding, and the margins from its two
-// quadratic factors (Ferrari's resolvent, polished by Newton's method on the factors). What it
-// cannot be sure of it says, for routh() and roots() to tell, which are exact and slow.
+// Stability of a quartic, the characteristic polynomial of two coordinates, in well under a
+// microsecond: Routh's first column in doubles, with a bound of its rounding, and the margins from
+// its two quadratic factors (Ferrari's resolvent, refined by Newton's method on the factors).
+// Inconclusive cases are marked and left to routh() and roots(), which are exact and slow.
 #pragma once
 
 #include <array>
@@ -32,12 +32,12 @@ struct QuarticJudgement {
 /// Coefficients highest power first. Real-time safe.
 QuarticJudgement judgeQuartic(const std::array<double, 5>& coefficients) noexcept;
 
-// A small motion about a steady one, reduced to what its stability hangs on, and the verdict on it
-// that searches ask for again and again: by the eigenvalues where they leave no doubt, by Routh's
-// test where they do.
+// Linearized motion about a steady one, reduced to the coordinates that its stability depends on,
+// and the repeated stability test of searches: by the eigenvalues where they are conclusive, else
+// by Routh's test.
 
 /// The last `zeros` coordinates do not matter: their zero eigenvalues are set aside.
-struct SmallMotion {
+struct LinearizedMotion {
   Linearization matrices;
   std::size_t zeros = 0;
   /// Where coefficients repeat: what decides, and not the matrices, which are of the mean loads.
@@ -45,25 +45,25 @@ struct SmallMotion {
 };
 
 /// About a steady motion at a shaft speed [rad/s]: without the rigid-body modes of a linear system,
-/// whose zeros rounding would scatter, and with the conserved momenta of any other as they are.
-/// Nothing where coefficients repeat and no periodic motion was found from `near`, or else from the
-/// steady one, on.
-std::optional<SmallMotion> smallMotionAbout(
+/// whose zeros rounding would scatter, and at constant conserved momenta of any other. Nothing
+/// where coefficients are periodic and no periodic motion was found from `near`, or else from the
+/// steady one.
+std::optional<LinearizedMotion> linearizedMotionAbout(
     const Dynamics& dynamics, const CyclicCoordinates& cyclic, const SteadyMotion& motion,
     double speed, const std::optional<PeriodicMotion>& near = std::nullopt);
 
-/// The root with the largest real part [1/s]; 0 where nothing is left that could move.
-std::complex<double> fastestGrowing(const SmallMotion& motion);
+/// The root with the largest real part [1/s]; 0 where no coordinate can move.
+std::complex<double> fastestGrowing(const LinearizedMotion& motion);
 
 /// Grows beyond what the rounding of eigenvalues could make.
-bool surelyUnstable(const SmallMotion& motion);
+bool surelyUnstable(const LinearizedMotion& motion);
 
-/// Tells stable from unstable at the places of one search. Beyond `most_exact` coordinates, or
-/// where exact numbers become too long, by the eigenvalues alone.
+/// Stability test at the points of one search. Beyond `most_exact` coordinates, or where exact
+/// numbers become too long, by the eigenvalues alone.
 class GrowthTest {
  public:
-  explicit GrowthTest(Eigen::Index most_exact = kMostExactCoordinates) : most_exact_(most_exact) {}
-  bool unstable(const SmallMotion& motion);
+  explicit GrowthTest(Eigen::Index most_exact = kMaxExactCoordinates) : most_exact_(most_exact) {}
+  bool unstable(const LinearizedMotion& motion);
 
  private:
   Eigen::Index most_exact_;

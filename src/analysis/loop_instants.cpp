@@ -9,7 +9,7 @@
 #include <optional>
 #include <tuple>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -21,19 +21,19 @@ constexpr double kSameRatio = 1e-12;
 constexpr long double kRoundingOfPeriod = 1e-15L;
 /// Ticks of a period that is no whole number of nanoseconds: finer than any double of it.
 constexpr std::int64_t kFinestPeriod = std::int64_t{1} << 50;
-constexpr std::int64_t kMostCommonMultiple = std::int64_t{1} << 40;
+constexpr std::int64_t kMaxCommonMultiple = std::int64_t{1} << 40;
 
 struct Ratio {
   std::int64_t over = 0, under = 1;
 };
 
-/// The simplest fraction of whole numbers up to kMostLoopSamples that is x, by its continued
+/// The simplest fraction of whole numbers up to kMaxLoopSamples that is x, by its continued
 /// fraction.
 std::optional<Ratio> ratioOf(double x) {
   Ratio before{1, 0};
-  Ratio ratio{static_cast<std::int64_t>(std::fmin(std::floor(x), 2.0 * kMostLoopSamples)), 1};
+  Ratio ratio{static_cast<std::int64_t>(std::fmin(std::floor(x), 2.0 * kMaxLoopSamples)), 1};
   double rest = x - std::floor(x);
-  while (ratio.over <= kMostLoopSamples && ratio.under <= kMostLoopSamples) {
+  while (ratio.over <= kMaxLoopSamples && ratio.under <= kMaxLoopSamples) {
     const auto value = static_cast<double>(ratio.over) / static_cast<double>(ratio.under);
     if (std::fabs(value - x) <= kSameRatio * x) {
       return ratio;
@@ -42,7 +42,7 @@ std::optional<Ratio> ratioOf(double x) {
       break;
     }
     const double whole = std::floor(1.0 / rest);
-    if (whole > 2.0 * kMostLoopSamples) {
+    if (whole > 2.0 * kMaxLoopSamples) {
       break;
     }
     rest = 1.0 / rest - whole;
@@ -62,7 +62,7 @@ std::optional<Ratio> ratioOf(double x) {
   throw RunFailure(
       fmt::format("sampled loop: the rates {} Hz must have a common period of at most {} samples "
                   "for an analysis (a simulation is possible)",
-                  fmt::join(rates, ", "), kMostLoopSamples));
+                  fmt::join(rates, ", "), kMaxLoopSamples));
 }
 
 /// Of each controller in the shortest common period.
@@ -76,7 +76,7 @@ std::vector<int> samplesInPeriod(const std::vector<LoopController>& controllers)
     }
     ratios.push_back(*ratio);
     first = std::lcm(first, ratio->under);
-    if (first > kMostLoopSamples) {
+    if (first > kMaxLoopSamples) {
       noCommonPeriod(controllers);
     }
   }
@@ -84,7 +84,7 @@ std::vector<int> samplesInPeriod(const std::vector<LoopController>& controllers)
   std::int64_t all = 0;
   for (const Ratio& ratio : ratios) {
     all += first * ratio.over / ratio.under;
-    if (all > kMostLoopSamples) {
+    if (all > kMaxLoopSamples) {
       noCommonPeriod(controllers);
     }
     samples.push_back(static_cast<int>(first * ratio.over / ratio.under));
@@ -108,7 +108,7 @@ void chooseTick(const std::vector<LoopController>& controllers, LoopInstants& in
   std::int64_t common = 1;
   for (const int samples : instants.samples) {
     common = std::lcm(common, std::int64_t{samples});
-    if (common > kMostCommonMultiple) {
+    if (common > kMaxCommonMultiple) {
       noCommonPeriod(controllers);
     }
   }

@@ -13,7 +13,7 @@
 #include "algebra/constants.h"
 #include "algebra/dense.h"
 #include "analysis/polynomial_roots.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -22,7 +22,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr int kPointsOfDecade = 60;
-/// Beyond the poles a loop that is not sampled is looked at for so many decades, and below them.
+/// A continuous-time loop is evaluated this many decades above and below its poles.
 constexpr double kDecadesBeyond = 4.0;
 /// A pole nearer to the axis than this part of its size is not resolved any more.
 constexpr double kMinPoleWidth = 1e-9;
@@ -69,7 +69,7 @@ std::vector<double> frequencies(const LoopSpan& response) {
   w.erase(std::remove_if(w.begin(), w.end(), [end](double x) { return !(x >= 0.0 && x <= end); }),
           w.end());
   std::sort(w.begin(), w.end());
-  // Of two as good as the same, rounding would say which is higher.
+  // The order of two nearly equal ones would depend on rounding.
   w.erase(std::unique(w.begin(), w.end(),
                       [](double a, double b) { return b - a <= kSameFrequency * b; }),
           w.end());

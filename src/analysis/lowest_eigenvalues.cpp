@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/growth_radius.h"
+#include "analysis/unstable_root_bound.h"
 
 namespace whirl_twin {
 
@@ -13,9 +13,9 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kRealPartRounding = 1.0e-13;  // of s: a real part that is none
-constexpr double kFarther = 8.0;               // radii, that are looked at for the sake of a proof
+constexpr double kFarther = 8.0;               // radii, search range of the proof
 
-/// Those found, and more where the proof that no other grows wants them.
+/// The roots found, and further ones where the proof that no other grows requires them.
 std::optional<LowestRoots> asFarAsProved(std::optional<LowestRoots> found,
                                          const BandedPencil<double>& pencil,
                                          const std::optional<double>& growth_radius) {
@@ -28,7 +28,8 @@ std::optional<LowestRoots> asFarAsProved(std::optional<LowestRoots> found,
   return found;
 }
 
-/// The values of those found; none is told yet. Small real parts are those of the energy.
+/// The eigenvalues of the roots found, before selection. Small real parts are computed from the
+/// energy.
 LowestEigenvalues valuesOf(const LowestRoots& found, const BandedLinearization& l,
                            const std::optional<double>& growth_radius) {
   LowestEigenvalues lowest;
@@ -37,7 +38,7 @@ LowestEigenvalues valuesOf(const LowestRoots& found, const BandedLinearization& 
   // What is fed and what is dissipated differ by no less than their rounding; alone, the latter has
   // none but that of a shape, squared.
   const double none = growth_radius == 0.0 ? kNoDamping : kRealPartRounding;
-  for (const PencilRoot& root : found.roots) {
+  for (const RefinedEigenpair& root : found.roots) {
     Complex s = root.value;
     if (lowest.undamped) {
       s = {0.0, s.imag()};
@@ -50,7 +51,7 @@ LowestEigenvalues valuesOf(const LowestRoots& found, const BandedLinearization& 
   return lowest;
 }
 
-/// Leaves out those behind the first `count` that are told, but those that grow.
+/// Drops those after the first `count`, except those that grow.
 LowestEigenvalues tell(LowestEigenvalues lowest, std::size_t count, Eigen::Index size) {
   for (std::size_t i = lowest.roots.size(); i > count && lowest.roots[i - 1].real() <= 0.0; --i) {
     lowest.roots.pop_back();
@@ -65,7 +66,7 @@ BandedPencil<double> pencilOf(const BandedLinearization& l) {
   return {l.byPlace(), l.byRate(), l.mass};
 }
 
-double decayByEnergy(const BandedLinearization& l, const PencilRoot& root) {
+double decayByEnergy(const BandedLinearization& l, const RefinedEigenpair& root) {
   const auto form = [&](const BandedMatrix<double>& m) {
     return root.shape.dot(m.times(root.shape).col(0));
   };
@@ -76,7 +77,7 @@ double decayByEnergy(const BandedLinearization& l, const PencilRoot& root) {
 
 std::optional<LowestEigenvalues> lowestEigenvalues(const BandedLinearization& l,
                                                    std::size_t modes) {
-  const std::optional<double> growth_radius = growthRadius(l);
+  const std::optional<double> growth_radius = unstableRootBound(l);
   const BandedPencil<double> pencil = pencilOf(l);
   const auto found = asFarAsProved(lowestRoots(pencil, 2 * modes), pencil, growth_radius);
   if (!found) {
@@ -92,7 +93,7 @@ std::optional<LowestEigenvalues> lowestEigenvalues(const BandedLinearization& l,
 }
 
 std::optional<LowestEigenvalues> eigenvaluesWithin(const BandedLinearization& l, double radius) {
-  const std::optional<double> growth_radius = growthRadius(l);
+  const std::optional<double> growth_radius = unstableRootBound(l);
   const BandedPencil<double> pencil = pencilOf(l);
   const auto found = asFarAsProved(rootsWithin(pencil, radius), pencil, growth_radius);
   if (!found) {

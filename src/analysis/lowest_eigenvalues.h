@@ -1,4 +1,4 @@
-// The lowest eigenvalues of a long rotor, and what can be said of the others without them.
+// The lowest eigenvalues of a rotor with many coordinates, and a stability proof for the others.
 #pragma once
 
 #include <complex>
@@ -26,13 +26,13 @@ struct LowestEigenvalues {
 /// s^2 M + s (C + G) + K + N.
 BandedPencil<double> pencilOf(const BandedLinearization& matrices);
 
-/// -Re s [1/s] by the energy that the shape dissipates and is fed (growth_radius.h), which has no
-/// part in the rounding of s.
-double decayByEnergy(const BandedLinearization& matrices, const PencilRoot& root);
+/// -Re s [1/s] by the energy that the shape dissipates and is fed (unstable_root_bound.h), which
+/// has no part in the rounding of s.
+double decayByEnergy(const BandedLinearization& matrices, const RefinedEigenpair& root);
 
-/// Of the lowest `modes`, two of each; of more where that is what it takes to prove that no other
-/// grows and one of them does. Real parts that are small are those of the energy; without damping
-/// and circulatory forces, exactly 0. Nothing where lowestRoots() tells nothing.
+/// Of the lowest `modes`, two each; of more where the proof that no other grows requires them and
+/// one of them does. Small real parts are computed from the energy; without damping and circulatory
+/// forces, exactly 0. Nothing where lowestRoots() has no result.
 std::optional<LowestEigenvalues> lowestEigenvalues(const BandedLinearization& matrices,
                                                    std::size_t modes);
 

@@ -44,7 +44,7 @@ class DeterminantWinding {
 
  private:
   static constexpr double kFine = 0.5;  // rad, from point to point
-  static constexpr int kMostHalvings = 12;
+  static constexpr int kMaxRefinements = 12;
 
   std::complex<double> phase(double angle) const {
     const std::complex<double> s = std::polar(radius_, angle);
@@ -61,7 +61,7 @@ class DeterminantWinding {
     if (std::fabs(turned) <= kFine) {
       return turned;
     }
-    if (halvings == kMostHalvings || std::isnan(turned)) {
+    if (halvings == kMaxRefinements || std::isnan(turned)) {
       return std::nan("");
     }
     const double middle = 0.5 * (start + end);
@@ -79,11 +79,11 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::VectorXcd;
 
-constexpr Index kMostDimensions = 330;
+constexpr Index kMaxDimensions = 330;
 constexpr Index kNarrow = 6;             // widths, of a matrix that is worth it
 constexpr double kConverged = 1.0e-8;    // of 1/s: near enough for Newton's method
 constexpr double kApart = 1.0e-3;        // of the radius, at least, from root to circle
-constexpr std::size_t kMostMore = 12;    // roots, for a wide gap to lay the circle through
+constexpr std::size_t kMaxMore = 12;     // roots, for a wide gap to lay the circle through
 constexpr double kDeflationReach = 4.0;  // radii, of the roots divided out
 
 /// About the lowest root's modulus: by inverse iteration without A1. 0 of a singular A0.
@@ -121,7 +121,7 @@ std::optional<Cut> widestGap(const std::vector<Ritz>& all, std::size_t least, do
   }
   std::optional<Cut> best;
   double widest = 1.0 + 2.0 * kApart;
-  for (std::size_t i = first; i < known && i <= first + kMostMore; ++i) {
+  for (std::size_t i = first; i < known && i <= first + kMaxMore; ++i) {
     const double below = std::max(radius, i == 0 ? 0.0 : std::abs(all[i - 1].root));
     const double above = std::abs(all[i].root);
     const double ratio = below > 0.0 ? above / below : 2.0;
@@ -174,11 +174,12 @@ std::optional<LowestRoots> confirmed(const ScaledPencil<Scalar>& scaled,
   if (!(std::fabs(turned) < 1.0)) {
     return std::nullopt;
   }
-  std::sort(found.roots.begin(), found.roots.end(), [](const PencilRoot& a, const PencilRoot& b) {
-    const double x = std::abs(a.value);
-    const double y = std::abs(b.value);
-    return x != y ? x < y : a.value.imag() < b.value.imag();
-  });
+  std::sort(found.roots.begin(), found.roots.end(),
+            [](const RefinedEigenpair& a, const RefinedEigenpair& b) {
+              const double x = std::abs(a.value);
+              const double y = std::abs(b.value);
+              return x != y ? x < y : a.value.imag() < b.value.imag();
+            });
   return found;
 }
 
@@ -198,14 +199,14 @@ std::optional<LowestRoots> search(const BandedPencil<Scalar>& pencil, std::size_
   const double rate = std::max(radius, 3.0 * lowest);
   const ScaledPencil<Scalar> scaled = inUnits(pencil, inertia, rate);
   KrylovSpace<Scalar> space(scaled.pencil);
-  const Index most = std::min(kMostDimensions, 2 * pencil.a0.size() * 3 / 4);
+  const Index most = std::min(kMaxDimensions, 2 * pencil.a0.size() * 3 / 4);
   for (Index m = 24 + 3 * static_cast<Index>(count) / 2; !space.singular(); m += m / 2) {
     m = std::min(m, most) / kKrylovBlock * kKrylovBlock;
     if (m <= space.dimension()) {
       return std::nullopt;
     }
     space.grow(m);
-    // Values that are none yet, or never, stand among the others: the check tells of a root missed.
+    // Unconverged and spurious Ritz values are among the others: the check detects a missed root.
     std::vector<Ritz> all = space.ritz();
     all.erase(std::remove_if(all.begin(), all.end(),
                              [](const Ritz& one) { return one.residual > kConverged; }),

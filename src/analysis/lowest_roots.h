@@ -38,18 +38,18 @@ struct BandedPencil {
   BandedPencil about(const Scalar& centre) const;
 };
 
-struct PencilRoot {
+struct RefinedEigenpair {
   std::complex<double> value;
   Eigen::VectorXcd shape;  ///< of length 1
 };
 
 struct LowestRoots {
-  std::vector<PencilRoot> roots;  ///< by rising modulus, then imaginary part
-  double radius = 0.0;            ///< all roots within this are there, and no others
+  std::vector<RefinedEigenpair> roots;  ///< by rising modulus, then imaginary part
+  double radius = 0.0;                  ///< all roots within this are there, and no others
 };
 
-/// `count` or a few more: no root stands as near to the circle as its neighbours stand to each
-/// other. Nothing of a singular A0, of matrices that are wide for their size, where the method
+/// `count` or a few more: the circle lies in a gap that is wide relative to the spacing of the
+/// roots. Nothing for a singular A0, for a bandwidth that is large for the size, where the method
 /// would have to find most of the roots, and where the check fails.
 template <class Scalar>
 std::optional<LowestRoots> lowestRoots(const BandedPencil<Scalar>& pencil, std::size_t count);

@@ -24,7 +24,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr Index kFewestModes = 4;               // two in each plane
+constexpr Index kMinModes = 4;                  // two in each plane
 constexpr double kSameShape = 1.0e-9;           // what orthogonalization may leave of a shape
 constexpr double kTurnsOfFreeWhirl = 100.0;     // [rad] that a run-up's free whirl lives for
 constexpr double kEigenvalueRounding = 1.0e-9;  // of stiff rotors
@@ -69,11 +69,11 @@ class FullRotor {
   /// Modes that the run passes, and four at least.
   Index modesOfTheRun() const {
     const auto below = (modes_.frequencies.array() < highest_).count();
-    return std::min(dof(), std::max<Index>(kFewestModes, below));
+    return std::min(dof(), std::max<Index>(kMinModes, below));
   }
 
   bool isPushed() const { return pushed_.cols() > 0; }
-  /// Shapes that every choice keeps, the first ones.
+  /// The first shapes, retained in every choice.
   Index fewest() const {
     const Index needed =
         isPushed() ? modesOfTheRun() + (rotor_.load.isZero(0.0) ? 0 : 1) + pushed_.cols() : 2;
@@ -109,7 +109,7 @@ class FullRotor {
     return modal(kept);
   }
 
-  /// Once it is above `enough` the rest of the speeds is left out.
+  /// Stops once it is above `enough`.
   double responseError(const MatrixXd& shapes, double enough) const {
     double worst = 0.0;
     const Eigen::MatrixXcd complex_shapes = shapes.cast<Complex>();
@@ -177,7 +177,7 @@ class FullRotor {
             at.along_y.cast<Complex>().cwiseProduct(q).sum()};
   }
 
-  /// Adds what is new in a shape, mass-orthonormal, unless there are `count` already.
+  /// Adds the new part of a shape, mass-orthonormal, unless there are `count` already.
   void keep(VectorXd shape, Index count, MatrixXd& kept) const {
     const MatrixXd& mass = middle_.mass;
     shape /= std::sqrt(shape.dot(mass * shape));
@@ -194,10 +194,10 @@ class FullRotor {
     }
   }
 
-  /// Among shapes of one frequency any mixture is a mode: which is taken must not be left to
-  /// rounding, or a coordinate would mean another motion on another machine. The first moves the
-  /// station that these shapes move farthest, the first such one along its x or else its y, and
-  /// forward; the others leave it at rest there, and so on.
+  /// Any combination of shapes of equal frequency is a mode: the choice must not depend on
+  /// rounding, or a coordinate would have a different meaning on a different machine. The first
+  /// shape moves the station with the largest motion (the first such station), along its x or else
+  /// its y, in positive direction; the others have a node there, and so on.
   void order(Eigen::Ref<MatrixXd> shapes) const {
     for (Index i = 0; i < shapes.cols(); ++i) {
       auto rest = shapes.rightCols(shapes.cols() - i);
@@ -301,7 +301,7 @@ double usualHighestSpeed(const LinearRotor& rotor) {
   const Index n = modes.frequencies.size();
   const double rigid = kRigidFrequency * modes.frequencies[n - 1];
   const auto first = (modes.frequencies.array() <= rigid).count();
-  return 2.0 * modes.frequencies[std::min(n - 1, first + kFewestModes - 1)];
+  return 2.0 * modes.frequencies[std::min(n - 1, first + kMinModes - 1)];
 }
 
 RotorReduction reduceRotor(const LinearRotor& rotor, const std::vector<Station>& stations,

@@ -1,11 +1,11 @@
-// A linear rotor of many coordinates in the amplitudes of a few shapes (Rayleigh-Ritz).
+// Modal reduction of a linear rotor of many coordinates (Rayleigh-Ritz).
 //
-// Modes of the undamped rotor at rest alone converge slowly: they know nothing of bearing damping
+// Modes of the undamped rotor at rest alone converge slowly: they do not include bearing damping
 // and gyroscopic moments. The shapes are therefore
 //
 //   the modes below the highest speed, four at least (which make the whirl modes of the run),
 //   the sag under a constant load,
-//   that under a force at each place where forces act that are not the rotor's own, and
+//   that under a force at each node where external forces act, and
 //   the unbalance response at Chebyshev's speeds of the run, its real and its imaginary part,
 //
 // with which the response is exact at those speeds and its error falls geometrically with their
@@ -15,8 +15,9 @@
 //   modes alone      3e-2    1e-2    3e-3    1e-3
 //   these shapes     4e-3    4e-4    1e-5    3e-10
 //
-// Where modes alone do better (few shapes, many modes in the run) they are taken. Shapes are
-// orthogonal in M and K of the rotor at rest, by rising frequency, of unit largest displacement.
+// Where modes alone have a smaller error (few shapes, many modes in the run) they are used. Shapes
+// are orthogonal in M and K of the rotor at rest, by rising frequency, of unit largest
+// displacement.
 #pragma once
 
 #include <Eigen/Core>
@@ -56,9 +57,9 @@ double usualHighestSpeed(const LinearRotor& rotor);
 RotorReduction reduceRotor(const LinearRotor& rotor, const std::vector<Station>& stations,
                            double highest_speed, int count, const Eigen::MatrixXd& pushed = {});
 
-/// The same with the least even number of shapes whose response error is below `tolerance`, and
-/// whose eigenvalue error is below a hundredth of it: a run-up leaves free whirls behind, which
-/// must keep their phase for the hundred radians or so that they live. All shapes if none is.
+/// The same with the smallest even number of shapes whose response error is below `tolerance`, and
+/// whose eigenvalue error is below a hundredth of it: a run-up excites free whirls, whose phase
+/// must be accurate for the hundred radians or so until they decay. All shapes if none is.
 RotorReduction reduceRotorTo(const LinearRotor& rotor, const std::vector<Station>& stations,
                              double highest_speed, double tolerance,
                              const Eigen::MatrixXd& pushed = {});

@@ -90,7 +90,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
 constexpr double kSameModeCorrelation = 0.9;  // correlation of one mode at two speeds
-constexpr double kAtAll = 0.5;  // the least that is accepted where a step is no longer halved
+constexpr double kAtAll = 0.5;            // the minimum accepted where a step is no longer halved
 constexpr double kRepeatedMode = 1.0e-6;  // of an eigenvalue
 constexpr int kMaxStrideHalvings = 8;
 /// Of more coordinates all modes at a speed cost more than Newton's method for those followed.
@@ -168,7 +168,7 @@ WhirlMode nearestIn(const Space& space, std::size_t member, const VectorXcd& sta
 /// At least the `count` lowest, or as many as there are.
 std::vector<WhirlMode> modesOf(const Linearization& matrices, const std::vector<Station>& stations,
                                std::size_t count) {
-  if (matrices.mass.rows() > kMostCompleteCoordinates &&
+  if (matrices.mass.rows() > kMaxCompleteCoordinates &&
       2 * count < static_cast<std::size_t>(matrices.mass.rows())) {
     if (auto lowest = lowestWhirlModes(banded(matrices), stations, count)) {
       if (lowest->modes.size() >= count) {

@@ -1,6 +1,6 @@
-// Follows modes of whirl while a parameter of the rotor changes: its speed, a cross-coupled
-// stiffness. A mode is known by its shape, not by its place in the list: the correlation of two
-// modes r = (phi, s phi) is the modal assurance criterion with the energy as its scalar product,
+// Mode tracking of whirl modes over a parameter of the rotor: its speed, a cross-coupled stiffness.
+// A mode is identified by its shape, not by its index: the correlation of two modes r = (phi, s
+// phi) is the modal assurance criterion with the energy as its scalar product,
 //
 //   <r_i, r_j> = phi_i^H K phi_j + conj(s_i) s_j phi_i^H M phi_j,
 //   c_ij = |<r_i, r_j>|^2 / (<r_i, r_i> <r_j, r_j>),
@@ -21,8 +21,8 @@ namespace whirl_twin {
 
 // A whirl mode of a long shaft found from the one that it was where the shaft, or its speed, was a
 // little different: Newton's method for (s^2 M + s (C + G) + K + N) phi = 0, which near the
-// diagonals costs no more than in proportion to the length (nonlinear inverse iteration: A. Ruhe,
-// SIAM J. Numer. Anal. 10, 1973).
+// diagonals costs in proportion to the length (nonlinear inverse iteration: A. Ruhe, SIAM J. Numer.
+// Anal. 10, 1973).
 
 class ModeContinuation {
  public:
@@ -47,14 +47,14 @@ class ModeTracker {
  public:
   /// The matrices at a value of the parameter.
   using System = std::function<Linearization(double parameter)>;
-  /// None: the mode has become overdamped, or cannot be told from others.
+  /// None: the mode has become overdamped, or cannot be distinguished from others.
   using Modes = std::vector<std::optional<WhirlMode>>;
 
   ModeTracker(System system, std::vector<Station> stations);
 
   /// The `count` vibrating modes of lowest frequency, or as many as there are.
   Modes lowest(double parameter, std::size_t count) const;
-  /// The modes at `from` as they are at `to`, in the same order.
+  /// The modes at `from`, tracked to `to`, in the same order.
   Modes follow(const Modes& modes, double from, double to) const;
 
  private:

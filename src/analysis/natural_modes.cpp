@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "algebra/dense.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -19,7 +19,7 @@ Eigen::VectorXd naturalUnits(const Dynamics& dynamics) {
 }
 
 bool massIsSingular(const Dynamics& dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                    const Moment<double>& at) {
+                    const EvaluationPoint<double>& at) {
   const Eigen::MatrixXd mass = dynamics.massMatrix(q, v, at);
   const Eigen::VectorXd diagonal = mass.diagonal();
   if (!(diagonal.minCoeff() > 0.0)) {
@@ -31,7 +31,7 @@ bool massIsSingular(const Dynamics& dynamics, const Eigen::VectorXd& q, const Ei
 }
 
 double massRegularity(const Dynamics& dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                      const Moment<double>& at) {
+                      const EvaluationPoint<double>& at) {
   const Eigen::VectorXd all_units = naturalUnits(dynamics);
   const Eigen::VectorXd unit = all_units / all_units.maxCoeff();  // their ratio is what matters
   const Eigen::VectorXd values =
@@ -101,16 +101,16 @@ namespace {
 
 void requireIndependentShapes(const Eigen::MatrixXd& shapes, Eigen::Index coordinates) {
   if (shapes.rows() != coordinates || shapes.cols() < 1 || shapes.cols() > coordinates) {
-    throw Refusal(
+    throw InputError(
         fmt::format("assumed modes: expected 1 to {0} shapes of {0} entries, found {1} of {2}",
                     coordinates, shapes.cols(), shapes.rows()));
   }
   if (!shapes.allFinite()) {
-    throw Refusal("assumed modes: expected finite entries");
+    throw InputError("assumed modes: expected finite entries");
   }
   const PivotedQr factors(shapes.colwise().normalized(), 1e-10);
   if (factors.rank() < shapes.cols() || shapes.colwise().squaredNorm().minCoeff() == 0.0) {
-    throw Refusal(
+    throw InputError(
         fmt::format("assumed modes: must be linearly independent shapes, found {} of rank {}",
                     shapes.cols(), factors.rank()));
   }

@@ -2,9 +2,9 @@
 //   ([k] - p_i^2 [m]) phi_i = 0,   phi_i^T [m] phi_j = 1 for i = j, else 0.
 //
 // The frequencies are the singular values of L_m^-1 L_k, the Cholesky factors of both matrices: p^2
-// is never formed, so that no rounding makes it negative and low modes keep their digits beside
-// high ones. Rigid-body modes are taken out first, as the motions the stiffness does not resist,
-// and have p = 0 exactly.
+// is never formed, so that no rounding makes it negative and low modes are as accurate as high
+// ones. Rigid-body modes are removed first, as the null space of the stiffness, and have p = 0
+// exactly.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,15 +19,15 @@ namespace whirl_twin {
 /// Smallest over largest eigenvalue of M(q), each coordinate in its natural unit (rad, or the
 /// model's natural length): 0 or less where some motion has no inertia. [-]
 double massRegularity(const Dynamics& dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                      const Moment<double>& at);
+                      const EvaluationPoint<double>& at);
 
 /// Below this regularity the accelerations may be mostly rounding.
 constexpr double kNearlySingularMass = 1.0e-10;
 
-/// Has some motion no inertia at all? Judged on M scaled to unit diagonal, so that masses may be as
-/// different as they like.
+/// Whether some motion has no inertia. Evaluated on M scaled to unit diagonal, so that masses may
+/// differ by any ratio.
 bool massIsSingular(const Dynamics& dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                    const Moment<double>& at);
+                    const EvaluationPoint<double>& at);
 
 /// A radian of each coordinate: of a sliding one, the model's natural length [m].
 Eigen::VectorXd naturalUnits(const Dynamics& dynamics);
@@ -37,7 +37,7 @@ Eigen::VectorXd naturalUnits(const Dynamics& dynamics);
 
 /// An orthonormal basis of the motions that the stiffness does not resist [n x r], r = 0 for a
 /// definite one. A motion counts as free if the stiffness, scaled to unit diagonal, resists it by
-/// less than kZeroEigenvalue. Throws Refusal for a matrix that is not symmetric,
+/// less than kZeroEigenvalue. Throws InputError for a matrix that is not symmetric,
 /// RunFailure for one that is negative for some motion (a statically unstable position).
 Eigen::MatrixXd rigidBodyModes(const Eigen::MatrixXd& stiffness);
 
@@ -47,12 +47,12 @@ struct NaturalModes {
   int rigid_body_modes = 0;     ///< how many of the frequencies are zero
 };
 
-/// Throws Refusal if the mass is not positive definite or a matrix not symmetric, and
+/// Throws InputError if the mass is not positive definite or a matrix not symmetric, and
 /// RunFailure if the stiffness is negative for some motion: then p is imaginary. Which
 /// motions count as rigid-body modes: rigidBodyModes().
 NaturalModes naturalModes(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness);
 
-/// Throws Refusal unless both are of the same size.
+/// Throws InputError unless both are of the same size.
 void requireSameSize(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness);
 
 // The assumed modes method for a discrete system (lecture notes): q = [Phi] eta with r assumed
@@ -62,7 +62,7 @@ void requireSameSize(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffne
 // exact ones.
 
 /// The system in r assumed shapes [n x r]; C, G and N are reduced like M and K. Throws
-/// Refusal for shapes of the wrong size or linearly dependent ones (to 1e-10 of their
+/// InputError for shapes of the wrong size or linearly dependent ones (to 1e-10 of their
 /// length).
 Linearization reduced(const Linearization& system, const Eigen::MatrixXd& shapes);
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "analysis/routh.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -41,7 +41,7 @@ using LongComplex = std::complex<LongReal>;
 
 constexpr LongReal kLongPi = 3.14159265358979323846264338327950288L;
 constexpr LongReal kEpsilon = std::numeric_limits<LongReal>::epsilon();
-constexpr int kMostSweeps = 200;  // some ten are enough unless roots are repeated
+constexpr int kMaxSweeps = 200;  // some ten are enough unless roots are repeated
 
 /// p'/p at z, or nothing left to gain: |p| is down to its own rounding.
 struct Evaluation {
@@ -106,7 +106,7 @@ std::vector<LongComplex> startingValues(const std::vector<LongComplex>& a) {
 std::vector<LongComplex> aberthRoots(const std::vector<LongComplex>& a) {
   std::vector<LongComplex> z = startingValues(a);
   std::vector<bool> found(z.size(), false);
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     for (std::size_t i = 0; i < z.size(); ++i) {
       if (found[i]) {
         continue;
@@ -166,7 +166,7 @@ std::vector<std::complex<double>> sortedRoots(const std::vector<Coefficient>& co
   std::vector<LongComplex> wide;
   for (const std::complex<double> coefficient : coefficients) {
     if (!std::isfinite(coefficient.real()) || !std::isfinite(coefficient.imag())) {
-      throw Refusal(fmt::format(
+      throw InputError(fmt::format(
           "polynomial: coefficient {} of {} must be a finite number, found {}{:+}i",
           wide.size() + 1, coefficients.size(), coefficient.real(), coefficient.imag()));
     }

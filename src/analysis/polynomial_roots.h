@@ -27,7 +27,7 @@ double bracketedRoot(const std::function<double(double)>& f, double low, double 
 /// `coefficients`: highest power first; leading zeros are dropped. Those of a real polynomial are
 /// real or exact conjugate pairs; trailing zero coefficients give exact zeros; a non-zero constant
 /// has none; a root too large for a double comes out infinite.
-/// Throws Refusal without a non-zero coefficient or with one that is not finite.
+/// Throws InputError without a non-zero coefficient or with one that is not finite.
 /// Not real-time safe (allocates).
 std::vector<std::complex<double>> roots(const std::vector<double>& coefficients);
 std::vector<std::complex<double>> roots(const std::vector<std::complex<double>>& coefficients);
@@ -58,8 +58,7 @@ ExactPolynomial derivative(const ExactPolynomial& polynomial);
 /// The polynomial without its leading zeros.
 ExactPolynomial trimmed(ExactPolynomial polynomial);
 
-/// a, b, -rem(a, b), ... down to the last member that is not zero, which is gcd(a, b). deg b < deg
-/// a.
+/// a, b, -rem(a, b), ... down to the last nonzero element, which is gcd(a, b). deg b < deg a.
 std::vector<ExactPolynomial> sturmSequence(ExactPolynomial a, ExactPolynomial b,
                                            ExactBudget& budget);
 

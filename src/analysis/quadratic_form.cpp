@@ -4,7 +4,7 @@
 
 #include "algebra/banded_matrix.h"
 #include "algebra/dense.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -32,7 +32,7 @@ void requireSymmetric(const Eigen::MatrixXd& form, const std::string& name) {
     found = fmt::format("{} in row {}, column {} and {} opposite to it", form(row, column), row + 1,
                         column + 1, form(column, row));
   }
-  throw Refusal(
+  throw InputError(
       fmt::format("{}: expected a symmetric matrix of finite numbers, found {}", name, found));
 }
 
@@ -64,7 +64,7 @@ Definiteness definiteness(const Eigen::MatrixXd& form, const std::string& name) 
 void requirePositiveDefinite(const Eigen::MatrixXd& form, const std::string& name) {
   const Definiteness found = definiteness(form, name);
   if (found != Definiteness::kPositiveDefinite) {
-    throw Refusal(fmt::format(
+    throw InputError(fmt::format(
         "{}: expected a positive definite matrix, found one that is {} for some motion (smallest "
         "eigenvalue, scaled to unit diagonal: {:.3g})",
         name, found == Definiteness::kPositiveSemidefinite ? "zero" : "negative",

@@ -1,6 +1,6 @@
-// Eigenvalues whose digits the dense solution has lost. Its error is a part of the largest of them:
-// beside what is stiff or damps much in a shaft, 1e6 1/s and more, a whirl of 40 rad/s has 9
-// digits.
+// Refinement of eigenvalues that the dense solution computes inaccurately. Its error is relative to
+// the largest of them: together with stiff or strongly damped roots of 1e6 1/s and more, a whirl of
+// 40 rad/s has 9 digits.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,10 +23,10 @@ namespace whirl_twin {
 double largestEigenvalueError(const Linearization& full, const Linearization& reduced,
                               const Eigen::MatrixXd& shapes, double largest);
 
-/// Of M q'' + (C + G) q' + (K + N) q = 0: each of `eigenvalues` [1/s], pairs complete, that may be
-/// off by more than some 1e-10 of its modulus is polished by Newton's method on these matrices
-/// (polished_root.h); it stays as it is where that leads elsewhere. `norm`: of the state matrix
-/// that was solved [1/s].
+/// Of M q'' + (C + G) q' + (K + N) q = 0: each of `eigenvalues` [1/s], in complete pairs, with a
+/// possible error above some 1e-10 of its modulus is refined by Newton's method on these matrices;
+/// it is unchanged where that converges to a different root. `norm`: of the state matrix of the
+/// eigensolution [1/s].
 void refineEigenvalues(const Linearization& linearization, double norm,
                        std::vector<std::complex<double>>& eigenvalues);
 
@@ -99,18 +99,19 @@ Eigen::VectorXcd pencilResidual(const BandedPencil<Scalar>& p, const std::comple
   return rounded;
 }
 
-/// Newton's method (mode_continuation.h) from a root that is nearly one, ended by two steps from
-/// what it leaves of the equation. Nothing if it leaves the root.
+/// Newton's method (mode_tracking.h) from an approximate root, ended by two steps from the residual
+/// of the equation. Nothing if it diverges from the root.
 template <class Scalar>
-std::optional<PencilRoot> polished(const BandedPencil<Scalar>& p, const std::complex<double>& from,
-                                   const Eigen::VectorXcd& shape) {
+std::optional<RefinedEigenpair> polished(const BandedPencil<Scalar>& p,
+                                         const std::complex<double>& from,
+                                         const Eigen::VectorXcd& shape) {
   constexpr double kMoved = 1.0e-5;     // of s: it would be another root
   constexpr double kSettled = 1.0e-14;  // of s
-  constexpr int kMostSteps = 4;
+  constexpr int kMaxSteps = 4;
   std::complex<double> s = from;
   Eigen::VectorXcd x = shape;
   double last = kMoved * std::abs(s);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const Eigen::VectorXcd slope = p.a1.times(x) + 2.0 * s * p.a2.times(x);
     const BandedLU<std::complex<double>> lu(p.at(s));
     if (lu.singular()) {
@@ -148,7 +149,7 @@ std::optional<PencilRoot> polished(const BandedPencil<Scalar>& p, const std::com
     s -= change;
     x = (x - y.col(0) + change * y.col(1)).normalized();
   }
-  return PencilRoot{s, x};
+  return RefinedEigenpair{s, x};
 }
 
 }  // namespace whirl_twin

@@ -8,7 +8,7 @@
 
 #include "algebra/dense.h"
 #include "integration/matrix_exponential.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -20,10 +20,10 @@ using Eigen::MatrixXd;
 constexpr int kMaxRiccatiDoublings = 60;
 /// A Cayley transform whose parameter is as near as this to an eigenvalue loses too many digits.
 constexpr double kSingularShift = 1e-8;
-/// What is left of a closed loop's motion after so many doublings does not change the solution.
+/// Below this residual of the closed loop's motion further doublings do not change the solution.
 constexpr double kGone = 1e-18;
-/// Newton's steps that take the rounding of the doublings out of the solution.
-constexpr int kMostRefinements = 6;
+/// Newton steps that remove the rounding of the doublings.
+constexpr int kMaxRefinements = 6;
 
 /// X = A' X (I + G X)^-1 A + H, and its dual: what doubling takes and gives.
 struct Doubling {
@@ -55,7 +55,7 @@ void checkCost(const MatrixXd& a, const MatrixXd& b, const QuadraticCost& cost) 
   }
   if (!finite(a) || !finite(b) || !finite(cost.state) || !finite(cost.input) ||
       !finite(cost.cross)) {
-    throw Refusal("Riccati equation: all matrices must be finite");
+    throw InputError("Riccati equation: all matrices must be finite");
   }
 }
 
@@ -67,7 +67,7 @@ MatrixXd crossOf(const QuadraticCost& cost) {
 Cholesky inverseOf(const MatrixXd& input_cost) {
   Cholesky factors(input_cost);
   if (input_cost.size() > 0 && !factors.succeeded()) {
-    throw Refusal("Riccati equation: the input weights r must be positive definite (all > 0)");
+    throw InputError("Riccati equation: the input weights r must be positive definite (all > 0)");
   }
   return factors;
 }
@@ -149,7 +149,7 @@ MatrixXd integrated(const MatrixXd& a, const MatrixXd& rest) {
   return summed((a + shift) * m, symmetric(2.0 * p * m.transpose() * rest * m));
 }
 
-/// What a sample, or a moment, costs under u = -gain x.
+/// The cost of a sample, or its rate, under u = -gain x.
 MatrixXd costOf(const QuadraticCost& cost, const MatrixXd& cross, const MatrixXd& gain) {
   const MatrixXd crossed = cross * gain;
   return symmetric(cost.state) - crossed - crossed.transpose() +
@@ -160,7 +160,7 @@ MatrixXd costOf(const QuadraticCost& cost, const MatrixXd& cross, const MatrixXd
 /// (1971) 382). gain(X), and correction(X, gain) of what it costs.
 template <class Gain, class Correction>
 Regulator refinedRegulator(MatrixXd x, const Gain& gain, const Correction& correction) {
-  for (int i = 0; i < kMostRefinements; ++i) {
+  for (int i = 0; i < kMaxRefinements; ++i) {
     const MatrixXd change = correction(x, gain(x));
     x += change;
     if (change.norm() <= std::numeric_limits<double>::epsilon() * x.norm()) {
@@ -217,7 +217,7 @@ SampledPlant sampledPlant(const MatrixXd& a, const MatrixXd& b, const QuadraticC
                           double period) {
   checkCost(a, b, cost);
   if (!(period > 0.0) || !std::isfinite(period)) {
-    throw Refusal(fmt::format("sampled plant: expected a period [s] > 0, found {}", period));
+    throw InputError(fmt::format("sampled plant: expected a period [s] > 0, found {}", period));
   }
   const Index n = a.rows();
   const Index m = b.cols();

@@ -4,19 +4,18 @@
 //   continuous   A' X + X A - (X B + N) R^-1 (B' X + N') + Q = 0
 //   sampled      X = A' X A - (A' X B + N) (R + B' X B)^-1 (B' X A + N') + Q
 //
-// By the structure-preserving doubling algorithm: k doublings are 2^k steps of Riccati's
-// recursion, so it converges quadratically, by products and LU factorizations only, no
-// eigenvalues (E. Chu, H. Fan,
-// W. Lin, Linear Algebra and its Applications 396 (2005) 55; E. Chu, H. Fan, W. Lin, C. Wang, Int.
-// J. Control 77 (2004) 767). The continuous equation is brought there by a Cayley
-// transform. Steps of Newton's method then take away what rounding has left.
+// By the structure-preserving doubling algorithm: k doublings are 2^k steps of Riccati's recursion,
+// so it converges quadratically, by products and LU factorizations only, no eigenvalues (E. Chu, H.
+// Fan, W. Lin, Linear Algebra and its Applications 396 (2005) 55; E. Chu, H. Fan, W. Lin, C. Wang,
+// Int. J. Control 77 (2004) 767). The continuous equation is converted by a Cayley transform.
+// Newton steps then remove the rounding errors.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace whirl_twin {
 
-/// What a motion costs: the integral (or the sum over samples) of x' Q x + 2 x' N u + u' R u.
+/// The cost of a motion: the integral (or the sum over samples) of x' Q x + 2 x' N u + u' R u.
 struct QuadraticCost {
   Eigen::MatrixXd state;       ///< Q [n x n], symmetric, >= 0
   Eigen::MatrixXd input;       ///< R [m x m], symmetric, > 0
@@ -29,8 +28,8 @@ struct Regulator {
   Eigen::MatrixXd cost;  ///< X [n x n], the stabilising solution
 };
 
-/// Of x' = a x + b u. All four: shapes that do not fit are a std::logic_error; Refusal where R is
-/// not positive definite or a number is not finite; RunFailure where no gain stabilises, or a
+/// Of x' = a x + b u. All four: shapes that do not fit are a std::logic_error; InputError where R
+/// is not positive definite or a number is not finite; RunFailure where no gain stabilises, or a
 /// motion that does not die out by itself costs nothing. Not real-time safe (allocates).
 Regulator continuousRegulator(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                               const QuadraticCost& cost);

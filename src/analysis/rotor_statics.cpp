@@ -13,7 +13,7 @@ Across add(const Across& a, const Across& b) {
   return {a.x + b.x, a.y + b.y};
 }
 
-/// What a bearing puts on a shaft that is deflected there, beside the pedestal that it stands on.
+/// Force of a bearing on a shaft with the given deflection relative to the bearing's pedestal.
 BearingLoad forceOf(const FlexibleShaft& shaft, int node, const BearingCoefficients& b,
                     const Eigen::VectorXd& q) {
   const Eigen::Index first = shaft.firstOf(node);

@@ -1,6 +1,6 @@
-// A flexible rotor as a body, and at rest under its weight: what is checked against the drawing
-// first, and the diagrams of shear force and bending moment of the strength of materials
-// (S. Timoshenko, Strength of Materials, 1930).
+// Mass properties of a flexible rotor and its static deflection under its weight, to be checked
+// against the drawing, with the diagrams of shear force and bending moment (S. Timoshenko, Strength
+// of Materials, 1930).
 //
 //   K q = weight,   V(z) = sum of the forces along y left of z,   M(z) = integral of V
 //
@@ -48,8 +48,8 @@ struct RotorStatics {
   std::vector<SagAtNode> nodes;
 };
 
-/// Under `gravity` [m/s^2] along -y, the bearings as they are at a speed [rad/s]. Nothing of a
-/// rotor that some motion is free to.
+/// Under `gravity` [m/s^2] along -y, with the bearing coefficients at a speed [rad/s]. Nothing for
+/// a rotor with a rigid-body mode.
 std::optional<RotorStatics> rotorStatics(const FlexibleShaft& shaft, double gravity, double speed);
 
 }  // namespace whirl_twin

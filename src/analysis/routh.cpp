@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "analysis/polynomial_roots.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -40,14 +40,13 @@ IntegerRow integerRowBelow(const IntegerRow& upper, const IntegerRow& lower, con
   return row;
 }
 
-/// What the rows of a table without divisions have in common, known beforehand: their entries are
-/// minors of Hurwitz's matrix, and from the fourth row below the first on each is a multiple of the
-/// first entry three rows above it (fraction-free elimination: Bareiss, Math. Comp. 22 (1968);
-/// Jeltsch, Numer. Math. 31 (1979)). To look for it by Euclid's algorithm costs a hundred times
-/// more.
+/// The known common divisors of the rows of a table without divisions: their entries are minors of
+/// Hurwitz's matrix, and from the fourth row below the first on each is a multiple of the first
+/// entry three rows above it (fraction-free elimination: Bareiss, Math. Comp. 22 (1968); Jeltsch,
+/// Numer. Math. 31 (1979)). Euclid's algorithm would cost a hundred times more.
 class KnownDivisors {
  public:
-  /// The first two rows of a table, or those where a special case began it anew.
+  /// The first two rows of a table, or those where a special case restarted it.
   void restart(const IntegerRow& upper) { firsts_ = {abs(upper.entry.front())}; }
   /// Of the row below `lower`, which is the next one.
   Integer next(const IntegerRow& lower) {
@@ -192,7 +191,7 @@ RouthResult routh(const std::vector<double>& coefficients) {
   exact.reserve(coefficients.size());
   for (const double coefficient : coefficients) {
     if (!std::isfinite(coefficient)) {
-      throw Refusal(
+      throw InputError(
           fmt::format("polynomial: coefficient {} of {} must be a finite number, found {}",
                       exact.size() + 1, coefficients.size(), coefficient));
     }

@@ -9,8 +9,8 @@
 // Complex coefficients (isotropic rotors in z = x + i y): the generalised test of Frank (1946) and
 // Bilharz (1944) as the Sturm sequence of Re and Im of p(jx)/j^n.
 //
-// What a polynomial cannot say: a repeated imaginary root grows like t^(m-1) unless the matrix it
-// comes from is semisimple there, as an isotropic undamped rotor in x and y is.
+// Not decidable from a polynomial: a repeated imaginary root grows like t^(m-1) unless the
+// underlying matrix is semisimple there, as that of an isotropic undamped rotor in x and y.
 #pragma once
 
 #include <algorithm>
@@ -20,19 +20,19 @@
 #include <vector>
 
 #include "analysis/exact_number.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
-// What Routh's test says of a polynomial (routh.h, routh_conditions.h), without the exact numbers
-// that it takes to say it.
+// Result of Routh's test of a polynomial (routh.h, routh_table.h), independent of the exact numbers
+// of the test.
 
 enum class Verdict : std::uint8_t {
   kAsymptoticallyStable = 0,  ///< every root left of the imaginary axis
   kMarginal,                  ///< none right of it, some on it, all of those simple
   kRepeatedImaginary,         ///< none right of it, a repeated one on it
   kUnstable,                  ///< at least one right of it
-  kUncertain                  ///< cannot be told from the numbers at hand; never said by routh()
+  kUncertain                  ///< undecidable from the given numbers; never returned by routh()
 };
 
 /// "asymptotically_stable", "marginal", "repeated_imaginary", "unstable" or "uncertain".
@@ -61,10 +61,10 @@ struct RouthCondition {
   bool holds = false;  ///< exact
 };
 
-/// Roots of a real polynomial, coefficients highest power first; leading zeros are dropped.
-/// Exact for the numbers given, whatever their size. A non-zero constant is asymptotically stable.
-/// Throws Refusal without a non-zero coefficient or with one that is not finite.
-/// Not real-time safe (allocates).
+/// Roots of a real polynomial, coefficients highest power first; leading zeros are dropped. Exact
+/// for the given numbers of any size. A non-zero constant is asymptotically stable. Throws
+/// InputError without a non-zero coefficient or with one that is not finite. Not real-time safe
+/// (allocates).
 RouthResult routh(const std::vector<Rational>& coefficients);
 RouthResult routh(const std::vector<double>& coefficients);
 /// The same as far as a budget goes: throws ExactBudgetSpent.
@@ -78,13 +78,13 @@ RouthResult routh(const std::vector<ComplexRational>& coefficients, ExactBudget&
 // What the real and the complex Routh test share: roots at zero taken out first, the verdict last.
 
 /// The polynomial (highest power first) without leading zeros and without its roots at zero, and
-/// how many of those there are. Throws Refusal if all coefficients are zero.
+/// how many of those there are. Throws InputError if all coefficients are zero.
 template <typename Coefficient, typename IsZero>
 std::pair<std::vector<Coefficient>, int> withoutZeroRoots(
     const std::vector<Coefficient>& coefficients, IsZero is_zero) {
   const auto first = std::find_if_not(coefficients.begin(), coefficients.end(), is_zero);
   if (first == coefficients.end()) {
-    throw Refusal("polynomial: expected at least one coefficient that is not zero, found none");
+    throw InputError("polynomial: expected at least one coefficient that is not zero, found none");
   }
   const auto last = std::find_if_not(coefficients.rbegin(), coefficients.rend(), is_zero).base();
   return {{first, last}, static_cast<int>(coefficients.end() - last)};

@@ -48,7 +48,7 @@ RouthResult routh(const std::vector<ComplexRational>& coefficients, ExactBudget&
   }
 
   // As x runs along the axis, arg p(jx) turns by pi (left - right), which is -pi times the index of
-  // V/U. The last member, gcd(U, V), has the roots on the axis and the pairs symmetric to it.
+  // V/U. The last element, gcd(U, V), has the roots on the axis and the pairs symmetric to it.
   const std::vector<ExactPolynomial> sequence =
       sturmSequence(scaledIntegers(real_part), trimmed(scaledIntegers(imaginary_part)), budget);
   const int right_less_left = cauchyIndex(sequence);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "analysis/routh.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -23,11 +23,11 @@ std::vector<RouthCondition> routhConditions(const std::vector<Rational>& coeffic
   const auto first = std::find_if(coefficients.begin(), coefficients.end(),
                                   [](const Rational& c) { return c != 0; });
   const auto degree = coefficients.end() - first - 1;
-  if (degree < kLeastConditionDegree || degree > kMostConditionDegree) {
-    throw Refusal(
+  if (degree < kMinConditionDegree || degree > kMaxConditionDegree) {
+    throw InputError(
         fmt::format("Routh's conditions: expected a polynomial of degree {} to {}, found {}",
-                    kLeastConditionDegree, kMostConditionDegree,
-                    degree < 0 ? "zero" : fmt::format("degree {}", degree)));
+                    kMinConditionDegree, kMaxConditionDegree,
+                    degree < 0 ? "the zero polynomial" : fmt::format("degree {}", degree)));
   }
   std::vector<RouthCondition> conditions;
   std::vector<Rational> a;  // A_0 ... A_(n - 1)
@@ -64,7 +64,8 @@ std::vector<RouthCondition> routhConditions(const std::vector<double>& coefficie
   std::vector<Rational> exact;
   for (const double c : coefficients) {
     if (!std::isfinite(c)) {
-      throw Refusal(fmt::format("Routh's conditions: expected finite coefficients, found {}", c));
+      throw InputError(
+          fmt::format("Routh's conditions: expected finite coefficients, found {}", c));
     }
     exact.emplace_back(c);
   }
@@ -75,7 +76,7 @@ namespace {
 
 using SymbolicRow = std::vector<SymbolicQuotient>;
 
-/// "2 s^4 + 12 s^2 + 16": a row of the table as the polynomial it stands for.
+/// "2 s^4 + 12 s^2 + 16": a row of the table as a polynomial.
 std::string polynomialOf(const SymbolicRow& row, int degree, const std::string& symbol) {
   std::string out;
   for (std::size_t j = 0; j < row.size(); ++j) {

@@ -1,10 +1,10 @@
-// Routh's table as it is written by hand, with every row and what was done where the rule fails:
+// Routh's table as written by hand, with every row and the handling of special cases:
 //
 //   row_i[j] = row_{i-2}[j+1] - (row_{i-2}[0] / row_{i-1}[0]) row_{i-1}[j+1]
 //
 // (E. J. Routh, A Treatise on the Stability of a Given State of Motion, 1877). Entries are exact,
-// and may have one symbol in them. Whether roots are right of the axis is routh.h's to say, which
-// is many times faster and gives the same first column.
+// and may have one symbol in them. For counting the roots right of the axis use routh.h, which is
+// many times faster and gives the same first column.
 #pragma once
 
 #include <string>
@@ -26,12 +26,12 @@ namespace whirl_twin {
 // The notes leave the last two to Routh's work ("two other requirements"): these are the Hurwitz
 // determinants D2, D4 and D3, A5 D5 written out (Lienard and Chipart 1914).
 
-constexpr int kLeastConditionDegree = 1;
-constexpr int kMostConditionDegree = 6;
+constexpr int kMinConditionDegree = 1;
+constexpr int kMaxConditionDegree = 6;
 
 /// The conditions of a real polynomial of degree 1 to 6, highest power first, leading zeros
 /// dropped: A0 > 0 ... first, then the others. It is asymptotically stable if and only if all hold,
-/// as routh() says. Throws Refusal for another degree or a coefficient that is not
+/// in agreement with routh(). Throws InputError for any other degree or a coefficient that is not
 /// finite.
 std::vector<RouthCondition> routhConditions(const std::vector<Rational>& coefficients);
 std::vector<RouthCondition> routhConditions(const std::vector<double>& coefficients);
@@ -47,9 +47,10 @@ struct RouthTable {
   int zero_roots = 0;  ///< taken out first
 };
 
-/// Of coefficients highest power first. Leading zeros are dropped; what is a number and negative in
-/// front turns all signs, as in routh(). An entry that holds the symbol is taken for not zero:
-/// where it is, the table is another one. Throws Refusal without a coefficient that is not zero.
+/// Of coefficients highest power first. Leading zeros are dropped; a negative numeric leading
+/// coefficient inverts all signs, as in routh(). An entry that contains the symbol is assumed
+/// nonzero: where it is zero, the table is different. Throws InputError without a coefficient that
+/// is not zero.
 RouthTable routhTable(const std::vector<SymbolicPolynomial>& coefficients,
                       const std::string& symbol);
 

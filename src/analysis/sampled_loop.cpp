@@ -14,7 +14,7 @@
 #include "algebra/dense.h"
 #include "analysis/loop_instants.h"
 #include "integration/matrix_exponential.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -91,7 +91,7 @@ Index sizeOf(const std::vector<Index>& indices) {
 
 void checkNumbers(const LoopController& c) {
   const auto refuse = [&](const char* what, double found) {
-    throw Refusal(fmt::format("controller {}: expected {}, found {}", c.name, what, found));
+    throw InputError(fmt::format("controller {}: expected {}, found {}", c.name, what, found));
   };
   if (!(c.rate > 0.0) || !std::isfinite(c.rate)) {
     refuse("a rate [Hz] > 0", c.rate);
@@ -131,15 +131,15 @@ void checkLoop(const LoopPlant& plant, const std::vector<LoopController>& contro
     throw std::logic_error("sampled loop: the sizes of the plant's matrices do not match");
   }
   if (controllers.empty()) {
-    throw Refusal("sampled loop: expected at least one controller, found none");
+    throw InputError("sampled loop: expected at least one controller, found none");
   }
   for (const LoopController& c : controllers) {
     checkNumbers(c);
     checkShapes(plant, c);
-    if ((c.delay + c.sensor_delay) * c.rate > kMostLoopStates) {
+    if ((c.delay + c.sensor_delay) * c.rate > kMaxLoopStates) {
       throw RunFailure(fmt::format(
           "controller {}: the delay must be at most {} samples for an analysis, found {:g}", c.name,
-          kMostLoopStates, (c.delay + c.sensor_delay) * c.rate));
+          kMaxLoopStates, (c.delay + c.sensor_delay) * c.rate));
     }
   }
 }
@@ -242,11 +242,11 @@ class LoopWalk {
       const Index pending = instants_.on_the_way[i] + (instants_.held[i] ? 1 : 0);
       states_ += controllers_[i].law.states() + pending * sizeOf(controllers_[i].acts_on);
     }
-    if (states_ > kMostLoopStates) {
+    if (states_ > kMaxLoopStates) {
       throw RunFailure(
           fmt::format("sampled loop: must have at most {2} states for an analysis, found {1} of "
                       "{0} controllers, their delays and plants",
-                      count, states_, kMostLoopStates));
+                      count, states_, kMaxLoopStates));
     }
     columns_ = states_;
     for (const LoopPlace& place : places_) {

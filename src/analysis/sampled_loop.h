@@ -1,11 +1,12 @@
-// A linear plant under controllers that sample it, each at its own rate and late by its own delay:
-// what one common period makes of it, exactly.
+// Exact transition over one common period of a linear plant with sampled controllers, each with its
+// own rate and delay.
 //
-// Between two instants every output is held, so that e^(A t) and its integral take the plant along
-// without an error; at an instant a controller reads, or one of its outputs comes into force (K.
-// Astrom, B. Wittenmark, Computer-Controlled Systems, 3rd ed., 1997, ch. 2-3). States are those of
-// the plant, of the poles of sensors and actuators, of the laws, and the outputs that have been
-// computed but have yet to act: tau = (d - 1) T + tau', 0 < tau' <= T, are d of them.
+// Between two instants every output is constant (zero-order hold), so that e^(A t) and its integral
+// advance the plant without error; at an instant a controller samples, or one of its outputs takes
+// effect (K. Astrom, B. Wittenmark, Computer-Controlled Systems, 3rd ed., 1997, ch. 2-3). States
+// are those of the plant, of the poles of sensors and actuators, of the control laws, and the
+// outputs that have been computed but are still delayed: tau = (d - 1) T + tau', 0 < tau' <= T, are
+// d of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,7 +32,7 @@ struct LoopController {
   std::vector<Eigen::Index> measures;  ///< rows of the plant's c
   std::vector<Eigen::Index> acts_on;   ///< columns of the plant's b; outputs of several add up
   double sensor_bandwidth = 0.0;       ///< Hz, of a first-order pole before the sampler; 0: none
-  double sensor_delay = 0.0;           ///< s: a sample shows what was so long ago
+  double sensor_delay = 0.0;           ///< s: delay of a sample
   double actuator_bandwidth = 0.0;     ///< Hz, of a first-order pole after the hold; 0: none
 };
 
@@ -45,30 +46,30 @@ struct SampledLoop {
   /// The instants are those of whole nanoseconds. Not so where the period is no whole number of
   /// them: then samples are k / rate apart, from which those of the running twin differ by 0.5 ns.
   bool whole_nanoseconds = false;
-  /// In so many directions the loop stays where it is left, to 1e-13 of the terms that cancel
-  /// there: eigenvalues 1 of the transition that rounding may have moved.
+  /// Number of directions in which the loop is neutral, to 1e-13 of the terms that cancel there:
+  /// eigenvalues 1 of the transition that rounding may have moved.
   int standing = 0;
 };
 
 /// Most samples of all controllers in a common period, and most states of a loop.
-constexpr int kMostLoopSamples = 1000;
-constexpr int kMostLoopStates = 4000;
+constexpr int kMaxLoopSamples = 1000;
+constexpr int kMaxLoopStates = 4000;
 
-/// Throws Refusal where a number cannot be meant (a rate <= 0, a delay < 0, no controller at all),
-/// RunFailure where the rates have no common period of kMostLoopSamples or delays make more states
-/// than kMostLoopStates; std::logic_error where shapes do not fit.
-/// Not real-time safe (allocates).
+/// Throws InputError for invalid numbers (a rate <= 0, a delay < 0, no controller at all),
+/// RunFailure where the rates have no common period of kMaxLoopSamples or delays lead to more
+/// states than kMaxLoopStates; std::logic_error for inconsistent matrix sizes. Not real-time safe
+/// (allocates).
 SampledLoop sampledLoop(const LoopPlant& plant, const std::vector<LoopController>& controllers);
 
-/// Where a loop is opened: at what a controller is shown of one of its measures, or at an output of
-/// it, which is where the plant is acted on.
+/// The point where a loop is opened: at a measured signal of a controller, or at one of its outputs
+/// (plant input).
 struct LoopPlace {
   std::size_t controller = 0;
   Eigen::Index channel = 0;  ///< of the controller's own `measures` or `acts_on`
   bool at_output = false;
 };
 
-/// The loop opened to numbers that are added at places, and to what is then found there. Columns of
+/// The loop opened at taps: from values added there to the values returned there. Columns of
 /// `input` and rows of `output`: the samples in a period of the controller of each place in turn.
 struct LoopTap {
   Eigen::MatrixXd input;   ///< [n x samples]

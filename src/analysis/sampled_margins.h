@@ -15,18 +15,18 @@ namespace whirl_twin {
 /// is at the input of the plant, at each of its outputs.
 enum class LoopSide : std::uint8_t { kSensors, kOutputs };
 
-/// Of each place in turn the loop opened there, all others closed, in z = exp(i w T), T the
-/// controller's own period: 1 + L = 1 / S. With controllers faster than it the response is that of
-/// its samples; with one whose rate is no whole multiple of its own, what goes round comes back at
-/// other frequencies, too, and S is the part that keeps its own. Errors as loopTap().
+/// For each place in turn the response of the loop opened there, all others closed, in z = exp(i w
+/// T), T the period of the controller: 1 + L = 1 / S. With faster controllers the response is that
+/// of its samples; with a controller whose rate is not an integer multiple the loop also returns
+/// other frequencies (aliasing), and S is the component at the same frequency. Errors as loopTap().
 std::vector<LoopResponse> sampledResponses(const LoopPlant& plant,
                                            const std::vector<LoopController>& controllers,
                                            std::size_t controller,
                                            LoopSide side = LoopSide::kSensors);
 
 struct SampledMargins : LoopMargins {
-  /// |integral of ln|S| - (pi / T) sum ln|p|| over pi / T, of what Bode's integral says: rounding.
-  /// NaN of a loop with long delays, whose open loop's poles are not all computed.
+  /// |integral of ln|S| - (pi / T) sum ln|p|| over pi / T, the deviation from Bode's integral:
+  /// rounding. NaN for a loop with long delays, whose open-loop poles are not all computed.
   double bode_error = 0.0;
 };
 
@@ -40,12 +40,12 @@ std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
                                            std::size_t controller, Verdict verdict,
                                            LoopSide side = LoopSide::kSensors);
 
-/// What the loop bears when all sensors of all controllers change alike, or, which is the same, all
-/// outputs (simultaneousMargins()): NaN where their rates differ.
+/// The margin of the loop when all sensors of all controllers change alike, or, which is the same,
+/// all outputs (simultaneousMargins()): NaN where their rates differ.
 LoopMargins sampledMarginsAtOnce(const LoopPlant& plant,
                                  const std::vector<LoopController>& controllers, Verdict verdict);
 
-/// The least of each margin, and the highest peak with its zone; of `at_once` and all others.
+/// The minimum of each margin, and the highest peak with its zone; of `at_once` and all others.
 LoopMargins leastMargins(const LoopMargins& at_once, const std::vector<SampledMargins>& margins);
 
 }  // namespace whirl_twin

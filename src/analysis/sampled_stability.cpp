@@ -11,7 +11,7 @@
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/delayed_matrix.h"
 #include "analysis/routh.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -67,8 +67,8 @@ using Complex = std::complex<double>;
 using Eigen::MatrixXd;
 
 /// Minimal polynomials cost more than characteristic ones.
-constexpr Eigen::Index kMostStatesOfMinimal = 12;
-/// Of a transition, in parts of its norm for each sample that it is a product of.
+constexpr Eigen::Index kMaxStatesOfMinimal = 12;
+/// Of a transition, relative to its norm, for each factor of the product of samples.
 constexpr double kTransitionRounding = 16.0 * std::numeric_limits<double>::epsilon();
 /// Eigenvalues so far inside the circle are not brought to it by rounding.
 constexpr double kFarInside = 0.5;
@@ -82,13 +82,13 @@ RouthResult exactRouth(const MatrixXd& transition, int standing) {
   polynomial.resize(polynomial.size() - static_cast<std::size_t>(standing));
   RouthResult result = routhOfCircle(polynomial, budget);
   if (standing > 0 && polynomial.back() == 0) {
-    // One that stands and drifts: more roots than directions.
+    // A neutral direction with drift: more roots than directions (defective eigenvalue 1).
     result.largest_imaginary_multiplicity = std::max(result.largest_imaginary_multiplicity, 2);
     if (result.right == 0) {
       result.verdict = Verdict::kRepeatedImaginary;
     }
   } else if (result.verdict == Verdict::kRepeatedImaginary && standing == 0 &&
-             transition.rows() <= kMostStatesOfMinimal &&
+             transition.rows() <= kMaxStatesOfMinimal &&
              routhOfCircle(bilinearTransform(minimalPolynomial(transition)), budget).verdict ==
                  Verdict::kMarginal) {
     result.verdict = Verdict::kMarginal;
@@ -187,7 +187,7 @@ SampledStability sampledStability(const SampledLoop& loop) {
   const int samples = std::accumulate(loop.samples.begin(), loop.samples.end(), 0);
   const Sides by_eigenvalues =
       sides(a, result.eigenvalues, loop.standing, kTransitionRounding * samples * a.norm());
-  if (a.rows() <= kMostExactStates) {
+  if (a.rows() <= kMaxExactStates) {
     try {
       result.routh = exactRouth(a, loop.standing);
       result.exact = true;

@@ -21,7 +21,7 @@ namespace whirl_twin {
 std::vector<Rational> bilinearTransform(const std::vector<Rational>& polynomial);
 
 /// Roots in z of what bilinearTransform() gave: `left` are inside the unit circle, `imaginary` on
-/// it, `right` outside. Refusal and ExactBudgetSpent as routh().
+/// it, `right` outside. InputError and ExactBudgetSpent as routh().
 RouthResult routhOfCircle(const std::vector<Rational>& transformed, ExactBudget& budget);
 
 struct SampledStability {
@@ -29,17 +29,17 @@ struct SampledStability {
   /// to the unit circle which the polynomial does not put exactly on it. Where a direction is
   /// standing and all else dies out: kMarginal.
   Verdict verdict = Verdict::kUncertain;
-  /// Of the numbers of the transition as they are, but for eigenvalues 1 of standing directions:
-  /// `left` are inside the unit circle, `imaginary` on it, `right` outside.
+  /// Of the transition matrix, except for eigenvalues 1 of neutral directions: `left` are inside
+  /// the unit circle, `imaginary` on it, `right` outside.
   RouthResult routh;
-  /// Beyond kMostExactStates, or where exact numbers become too long, `routh` counts eigenvalues.
+  /// Beyond kMaxExactStates, or where exact numbers become too long, `routh` counts eigenvalues.
   bool exact = false;
   /// Of a period, by falling modulus; of a loop with long delays those of largest modulus.
   std::vector<std::complex<double>> eigenvalues;
   double spectral_radius = 0.0;  ///< of a period: with one rate of a sample
 };
 
-constexpr Eigen::Index kMostExactStates = 24;
+constexpr Eigen::Index kMaxExactStates = 24;
 
 /// Of a loop that is mostly delays the eigenvalues are counted by the argument principle
 /// (analysis/delayed_matrix.h). Throws RunFailure for a transition beyond the range of double, or

@@ -17,7 +17,7 @@ constexpr double kSlowest = 1.0e-4;  // of the highest speed
 constexpr double kSlow = 1.0e-2;     // of the lowest natural frequency
 constexpr int kSommerfeldGrid = 400;
 
-constexpr double kFastest = 1.0e6;  // [rad/s], that a motor without a limit is looked at
+constexpr double kFastest = 1.0e6;  // [rad/s], search limit for a motor without a speed limit
 
 }  // namespace
 
@@ -50,7 +50,7 @@ std::vector<SteadySpeed> sommerfeldSpeeds(const LinearRotor& rotor, const Motor&
   const double lowest = (highest > scale ? kSlow : kSlowest) * scale;
   std::vector<double> speeds =
       speedsToLookAt(synchronousPoles(rotor, lowest, highest), lowest, highest, kSommerfeldGrid);
-  for (std::size_t i = 0; i < motor.count; ++i) {  // corners of the motor's law
+  for (std::size_t i = 0; i < motor.count; ++i) {  // breakpoints of the motor's characteristic
     if (motor.points[i].speed > lowest && motor.points[i].speed < highest) {
       speeds.push_back(motor.points[i].speed);
     }

@@ -4,9 +4,9 @@
 //
 //   T(w) = d w + P(w) / w,   P = Re(conj(i w X) . F) / 2,
 //
-// X the synchronous response to the forces F that turn with the shaft. P is what damping that
-// stands still dissipates, less what circulatory forces give. Near a resonance there are three
-// speeds, or one from which a weak motor cannot escape.
+// X the response to the synchronous forces F. P is the power that non-rotating damping dissipates,
+// less the power of circulatory forces. Near a resonance there are three speeds, or one from which
+// a weak motor cannot escape.
 #pragma once
 
 #include <vector>

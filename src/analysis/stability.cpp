@@ -15,13 +15,13 @@
 #include "analysis/refined_eigenvalues.h"
 #include "analysis/routh.h"
 #include "analysis/stability_margins.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
 namespace {
 
-/// Real parts below this part of the largest eigenvalue cannot be told from zero.
+/// Real parts below this fraction of the largest eigenvalue are indistinguishable from zero.
 constexpr double kRootRounding = 1.0e-14;
 constexpr Eigen::Index kMaxIterationsPerRoot = 400;  // a root
 /// Rounding of a state matrix and of its eigenvalues, in parts of its norm for each row.
@@ -62,7 +62,7 @@ void modes(const std::vector<std::complex<double>>& roots, Stability& s) {
   }
 }
 
-/// What the exact polynomial says.
+/// Result from the exact polynomial.
 struct ExactVerdict {
   std::vector<double> polynomial;
   RouthResult routh;
@@ -88,8 +88,8 @@ ExactVerdict exactVerdict(const Linearization& l, std::size_t zeros) {
   return exact;
 }
 
-/// The last one is kept: a system's equilibria, its operating point, its threshold and its critical
-/// speeds are asked for in turn, and each begins with the same matrices at rest.
+/// Caches the last result: a system's equilibria, its operating point, its threshold and its
+/// critical speeds are computed in turn, and each starts with the same matrices at rest.
 void judgeExactly(const Linearization& l, std::size_t zeros, Stability& s) {
   struct Judged {
     Eigen::MatrixXd matrices;  // M, C, G, K, N side by side
@@ -196,7 +196,7 @@ void judgeByDefiniteness(const Linearization& l, Stability& s) {
   }
 }
 
-/// Decay and damping by the eigenvalues; a verdict that rests on less than their rounding is none.
+/// Decay and damping by the eigenvalues; kUncertain where they are below their rounding.
 void setMargins(Stability& s) {
   double rightmost = -std::numeric_limits<double>::infinity();
   double ratio = std::numeric_limits<double>::quiet_NaN();
@@ -239,9 +239,9 @@ const Solved& solved(const Linearization& l, std::size_t zeros) {
   if (last.matrix.rows() == a.rows() && last.matrix == a) {
     return last;
   }
-  // In its own units the low ones keep up to three digits more beside the high ones.
+  // After balancing the low ones are up to three digits more accurate.
   const Eigen::MatrixXd even = balanced(a);
-  // Overdamped motions beside slow ones keep the iteration busy for longer than Eigen waits.
+  // Overdamped motions together with slow ones need more iterations than Eigen's limit.
   const EigenPairs solver = eigenvalues(even, kMaxIterationsPerRoot * a.rows());
   if (!solver.succeeded) {
     throw RunFailure("the eigenvalues of the linearized system cannot be computed");
@@ -262,7 +262,7 @@ std::vector<std::complex<double>> refinedEigenvalues(const Linearization& l, std
   return roots;
 }
 
-/// What the lowest eigenvalues say, and the proof of what the others do.
+/// Stability by the lowest eigenvalues, and by the proof for the others.
 void judgeLowest(const LowestEigenvalues& lowest, Stability& s) {
   s.eigenvalues = lowest.roots;
   s.omitted = lowest.omitted;
@@ -312,7 +312,7 @@ Stability stability(const Linearization& linearization) {
 
 Stability stability(const Linearization& linearization, std::size_t zeros, std::size_t modes_told) {
   Stability s;
-  if (linearization.mass.rows() > kMostCompleteCoordinates && zeros == 0 &&
+  if (linearization.mass.rows() > kMaxCompleteCoordinates && zeros == 0 &&
       modes_told < static_cast<std::size_t>(linearization.mass.rows())) {
     if (const auto lowest = lowestEigenvalues(banded(linearization), modes_told)) {
       judgeLowest(*lowest, s);
@@ -330,7 +330,7 @@ Stability stability(const Linearization& linearization, std::size_t zeros, std::
   }
   modes(s.eigenvalues, s);
   bool judged = false;
-  if (linearization.mass.rows() <= kMostExactCoordinates) {
+  if (linearization.mass.rows() <= kMaxExactCoordinates) {
     try {
       judgeExactly(linearization, zeros, s);
       judged = true;

@@ -10,21 +10,21 @@
 
 namespace whirl_twin {
 
-/// The modes that are looked at of more than kMostCompleteCoordinates.
+/// Number of modes computed for more than kMaxCompleteCoordinates.
 constexpr std::size_t kLowestModes = 24;
 constexpr std::size_t kAllModes = static_cast<std::size_t>(-1);
-constexpr Eigen::Index kMostCompleteCoordinates = 100;
+constexpr Eigen::Index kMaxCompleteCoordinates = 100;
 
 struct Stability {
   std::vector<std::complex<double>> eigenvalues;  ///< [1/s], by rising |s|, then Im
-  /// How many more there are, all of larger modulus: of none of them do the numbers below tell. The
-  /// verdict covers them by a proof (growth_radius.h), or is kUncertain.
+  /// Number of further eigenvalues, all of larger modulus, not included in the numbers below. The
+  /// verdict covers them by a proof (unstable_root_bound.h), or is kUncertain.
   std::size_t omitted = 0;
   /// One entry per vibrating (or overdamped) mode, ascending: |s| [rad/s] and -Re s / |s| [-]. A
   /// pair of real roots s1, s2 < 0 is the mode of frequency sqrt(s1 s2); a saddle has none.
   std::vector<double> natural_frequencies;
   std::vector<double> damping_ratios;
-  /// Characteristic, monic, highest power first; empty beyond kMostExactCoordinates.
+  /// Characteristic, monic, highest power first; empty beyond kMaxExactCoordinates.
   std::vector<double> polynomial;
   RouthResult routh;  ///< a repeated imaginary root with full eigenvectors is marginal
   /// Roots right of the axis by the eigenvalues; routh.right where rounding explains the difference
@@ -40,26 +40,25 @@ struct Stability {
   }
 };
 
-/// The exact polynomial and Routh's test on it cost seconds beyond so many coordinates. There, and
-/// where exact numbers become too long sooner, the verdict rests on the definiteness of the
-/// matrices where that decides (Kelvin, Tait and Chetaev: N = 0, K > 0, and C > 0 or C = 0;
-/// cannotGrow), else on the eigenvalues.
-constexpr Eigen::Index kMostExactCoordinates = 8;
+/// The exact polynomial and Routh's test on it cost seconds beyond this number of coordinates.
+/// There, and where exact numbers become too long sooner, the verdict is based on the definiteness
+/// of the matrices where that is conclusive (Kelvin, Tait and Chetaev: N = 0, K > 0, and C > 0 or C
+/// = 0; cannotGrow), else on the eigenvalues.
+constexpr Eigen::Index kMaxExactCoordinates = 8;
 
 /// Without circulatory forces and with C >= 0, K >= 0 (to 1e-12 of a unit diagonal) T + V never
 /// rises, whatever gyroscopic forces there are: no root lies right of the axis, and with C = 0 all
 /// lie on it, only zeros defective (q^H times the equation: s^2 m + s (c + i g) + k = 0).
 bool cannotGrow(const Linearization& linearization);
 
-/// Judges M q'' + (C + G) q' + (K + N) q = 0. The verdict is kUncertain where the largest real part
-/// is below the rounding of the eigenvalues and the polynomial does not make it exactly zero.
-/// Throws RunFailure for matrices beyond the range of double, Refusal for a
-/// singular mass.
+/// Stability of M q'' + (C + G) q' + (K + N) q = 0. The verdict is kUncertain where the largest
+/// real part is below the rounding of the eigenvalues and the polynomial does not make it exactly
+/// zero. Throws RunFailure for matrices beyond the range of double, InputError for a singular mass.
 Stability stability(const Linearization& linearization);
 
-/// The same with `zeros` roots at 0 set aside: those of the last coordinates, whose position does
-/// not matter (their columns of K + N are exactly zero). Of more than kMostCompleteCoordinates with
-/// no zeros the lowest `modes` only, two eigenvalues each, unless they cannot be told for sure.
+/// The same without `zeros` roots at 0: those of the last coordinates, whose position is irrelevant
+/// (their columns of K + N are exactly zero). For more than kMaxCompleteCoordinates with no zeros
+/// the lowest `modes` only, two eigenvalues each, unless they cannot be computed reliably.
 Stability stability(const Linearization& linearization, std::size_t zeros,
                     std::size_t modes = kLowestModes);
 

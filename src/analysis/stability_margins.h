@@ -1,4 +1,4 @@
-// How far a system is from instability, from its characteristic polynomial (Den Hartog, Mechanical
+// Stability margins of a system from its characteristic polynomial (Den Hartog, Mechanical
 // Vibrations; API 684 for the logarithmic decrement):
 //   decay rate            sigma* = -max Re s,
 //   damping ratio         zeta = min over the roots that are not zero of -Re s / |s|,

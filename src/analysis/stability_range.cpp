@@ -9,7 +9,7 @@
 
 #include "analysis/polynomial_roots.h"
 #include "analysis/routh.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -19,8 +19,8 @@ using Coefficients = std::vector<SymbolicPolynomial>;
 
 const Rational kDigits("1000000000000000000");  // what 17 of them take
 
-/// det H_(n-1), H_ij = A_(n - 2j + i) (1-based), by elimination without divisions that leave a rest
-/// (E. Bareiss, Math. Comp. 22, 1968).
+/// det H_(n-1), H_ij = A_(n - 2j + i) (1-based), by fraction-free elimination (E. Bareiss, Math.
+/// Comp. 22, 1968).
 SymbolicPolynomial hurwitzDeterminant(const Coefficients& a, ExactBudget& budget) {
   const int n = static_cast<int>(a.size()) - 1;
   const int size = n - 1;
@@ -94,13 +94,13 @@ class RealRoots {
     split(-beyond, beyond, found);
     return found;
   }
-  /// Halves the interval that the root is in.
+  /// Bisects the interval of the root.
   void halve(StabilityBound& root) const {
     const Rational middle = (root.below + root.above) / 2;
     (count(root.below, middle) == 1 ? root.above : root.below) = middle;
   }
-  /// To 17 digits; a fraction is found out. One with a denominator up to the leading coefficient L
-  /// is alone among those in an interval narrower than 1/L^2, and the simplest.
+  /// To 17 digits; rational roots are identified exactly. One with a denominator up to the leading
+  /// coefficient L is alone among those in an interval narrower than 1/L^2, and the simplest.
   void refine(StabilityBound& root) const {
     const Rational narrow(Integer(1), Integer(2 * leading_ * leading_));
     const auto wide = [&] {
@@ -150,7 +150,7 @@ class RealRoots {
     const Rational whole = Integer(numerator(x) / denominator(x));  // towards zero
     return x < whole ? Rational(whole - 1) : whole;
   }
-  /// The fraction of least denominator in [below, above] (Stern-Brocot).
+  /// The fraction of smallest denominator in [below, above] (Stern-Brocot).
   static Rational simplestIn(const Rational& below, const Rational& above) {
     if (below <= 0 && above >= 0) {
       return 0;
@@ -209,7 +209,7 @@ std::string quadraticText(const SymbolicPolynomial& q, double value) {
   return text(middle) + (upper ? " + " : " - ") + root;
 }
 
-/// The imaginary part of the roots nearest to the axis, zeros left out.
+/// The imaginary part of the roots nearest to the axis, without zeros.
 std::optional<double> frequencyOnAxis(const Coefficients& coefficients, const Rational& k) {
   std::vector<double> values;
   for (const Rational& value : at(coefficients, k)) {
@@ -232,13 +232,13 @@ struct BoundaryFactors {
   SymbolicPolynomial leading, last, pair;
 };
 
-/// What happens at the bound, and what it is a root of.
+/// The event at the bound, and the polynomial that it is a root of.
 void explain(StabilityBound& bound, const BoundaryFactors& factors,
              const Coefficients& coefficients, const std::vector<Rational>& fractions,
              ExactBudget& budget) {
   const auto vanishes = [&](const SymbolicPolynomial& factor) {
     if (factor.zero()) {
-      return false;  // for every K: that tells nothing of this one
+      return false;  // for every K: not specific to this one
     }
     if (bound.exact) {
       return factor.at(*bound.exact) == 0;
@@ -300,11 +300,11 @@ StabilityRange stabilityRange(const std::vector<SymbolicPolynomial>& coefficient
                                       [](const SymbolicPolynomial& a) { return a.zero(); });
   const Coefficients a(first, coefficients.end());
   const int degree = static_cast<int>(a.size()) - 1;
-  if (degree < 1 || degree > kMostParameterDegree) {
-    throw Refusal(fmt::format(
-        "coefficients: expected a polynomial of degree 1 to {} in s, found {}",
-        kMostParameterDegree,
-        degree < 0 ? std::string("none that is not zero") : fmt::format("degree {}", degree)));
+  if (degree < 1 || degree > kMaxParameterDegree) {
+    throw InputError(fmt::format(
+        "coefficients: expected a polynomial of degree 1 to {} in s, found {}", kMaxParameterDegree,
+        degree < 0 ? std::string("only coefficients that are zero")
+                   : fmt::format("degree {}", degree)));
   }
   const BoundaryFactors factors{a.front(), a.back(), hurwitzDeterminant(a, budget)};
   StabilityRange range;

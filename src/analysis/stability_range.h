@@ -1,10 +1,10 @@
-// For which values of a parameter K a real polynomial in s, whose coefficients are polynomials in
-// K, has all its roots left of the imaginary axis.
+// Stable values of a parameter K: those for which a real polynomial in s, whose coefficients are
+// polynomials in K, has all its roots left of the imaginary axis.
 //
-// Roots move on without a jump as K does. The number of them right of the axis can change only
-// where a root goes through 0 (A_0 = 0), a pair through the axis (the Hurwitz determinant D_(n-1) =
-// 0; L. Orlando, Math. Ann. 71, 1911), or one through infinity (A_n = 0). Between two such K next
-// to each other one exact Routh test tells for all: nothing is sampled, no interval is overlooked.
+// Roots are continuous in K. The number of them right of the axis can change only where a root goes
+// through 0 (A_0 = 0), a pair through the axis (the Hurwitz determinant D_(n-1) = 0; L. Orlando,
+// Math. Ann. 71, 1911), or one through infinity (A_n = 0). Between two adjacent such K one exact
+// Routh test decides for all: nothing is sampled, no interval is missed.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ struct StabilityBound {
   bool root_at_zero = false;
   bool pair_on_axis = false;
   bool degree_falls = false;
-  std::optional<RouthResult> there;  ///< of exact ones; none if no polynomial in s is left
+  std::optional<RouthResult> there;  ///< of exact ones; none if no polynomial in s remains
   std::optional<double> frequency;   ///< [rad/s], of a pair on the axis
 
   double value() const { return toDouble(above); }
@@ -44,14 +44,14 @@ struct StabilityRange {
   bool never = false;
 };
 
-/// Coefficients highest power of s first. Throws Refusal for a polynomial of a degree above
-/// kMostParameterDegree or without s, and ExactBudgetSpent.
+/// Coefficients highest power of s first. Throws InputError for a polynomial of a degree above
+/// kMaxParameterDegree or without s, and ExactBudgetSpent.
 StabilityRange stabilityRange(const std::vector<SymbolicPolynomial>& coefficients,
                               ExactBudget& budget);
-inline constexpr int kMostParameterDegree = 16;
+inline constexpr int kMaxParameterDegree = 16;
 
 /// Pieces of the line of K where it is asymptotically stable, in order: an end belongs to its piece
-/// where it is `included` (there the degree falls, and what is left is stable).
+/// where it is `included` (there the degree drops, and the remaining polynomial is stable).
 struct StablePiece {
   std::optional<std::size_t> from, to;  ///< bounds
   bool from_included = false, to_included = false;

@@ -12,7 +12,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr int kMaxIterations = 100;
-constexpr int kMostCreeps = 2000;
+constexpr int kMaxCreeps = 2000;
 constexpr double kCreep = 0.05;    // units: the longest step
 constexpr double kCrept = 1.0e-9;  // units: there
 constexpr double kHeld = 1.0e-9;   // of the load: what no stiffness answers is a load along a drift
@@ -54,10 +54,10 @@ class ReducedSystem {
 
   /// What pulls, in units.
   Eigen::VectorXd pull(const SteadyMotion& x) const {
-    return unit_.cwiseProduct(dynamics_.unbalancedForce(x.q, x.v, at_))(rows_);
+    return unit_.cwiseProduct(dynamics_.residualForce(x.q, x.v, at_))(rows_);
   }
 
-  /// - d pull / d unknowns, with the momenta as they are.
+  /// - d pull / d unknowns, at constant momenta.
   Eigen::MatrixXd slope(const SteadyMotion& x) const {
     const Linearization full =
         dynamics_.linearization(x.q, x.v, Eigen::VectorXd::Zero(x.q.size()), at_);
@@ -85,7 +85,7 @@ class ReducedSystem {
     matchMomenta(x);
   }
 
-  /// [m], that is left to each bound of a rotor; empty of anything else.
+  /// [m], margin to each bound of a rotor; empty for other systems.
   Eigen::VectorXd room(const SteadyMotion& x) const {
     const std::vector<Condition> bounds =
         dynamics_.isRotor() ? dynamics_.conditions(x.q, x.v, Eigen::VectorXd::Zero(x.q.size()), at_)
@@ -120,18 +120,18 @@ class ReducedSystem {
   const Dynamics& dynamics_;
   const CyclicCoordinates& cyclic_;
   const Eigen::VectorXd& momenta_;
-  Moment<double> at_;
+  EvaluationPoint<double> at_;
   Eigen::VectorXd unit_;
   CyclicCoordinates::Places rows_;
 };
 
-/// Where a linear system rests under its constant loads, K q = load; nothing where they act along a
-/// motion that no stiffness resists. (By least squares: K is singular there.)
+/// Equilibrium of a linear system under its constant loads, K q = load; nothing where they act
+/// along a motion without stiffness. (By least squares: K is singular there.)
 std::optional<SteadyMotion> deflection(const Dynamics& dynamics, double speed) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(dynamics.dof());
-  const Moment<double> at{0.0, 0.0, speed, 0.0};
+  const EvaluationPoint<double> at{0.0, 0.0, speed, 0.0};
   const Dynamics& mean = dynamics.atMeanLoad();
-  const Eigen::VectorXd load = mean.unbalancedForce(zero, zero, at);
+  const Eigen::VectorXd load = mean.residualForce(zero, zero, at);
   if (load.norm() == 0.0) {
     return SteadyMotion{zero, zero};
   }
@@ -191,7 +191,7 @@ std::optional<SteadyMotion> steadyMotionNear(const Dynamics& dynamics,
   }
   const ReducedSystem system(dynamics, cyclic, x, momenta, speed);
   system.matchMomenta(x);
-  if (cyclic.shape.empty() && cyclic.driven.empty()) {  // its momenta tell all of it
+  if (cyclic.shape.empty() && cyclic.driven.empty()) {  // fully determined by its momenta
     return x;
   }
   if (system.room(x).size() > 0) {
@@ -207,7 +207,7 @@ std::optional<SteadyMotion> steadyMotionNear(const Dynamics& dynamics,
     }
     system.move(correction * std::min(1.0, 1.0 / std::max(size, 1.0e-300)), x);
     if (size < 1.0e-14 * (1.0 + system.size(x))) {
-      // A force that no stiffness answers is left where a coordinate is free to run away.
+      // A residual force without stiffness remains where a coordinate is free to run away.
       const bool held = (pull - slope * correction).norm() <= 1.0e-9 * slope.norm();
       return held ? std::optional<SteadyMotion>(x) : std::nullopt;
     }
@@ -228,7 +228,7 @@ std::optional<SteadyMotion> creepsTo(const Dynamics& dynamics, const CyclicCoord
   const ReducedSystem system(dynamics, cyclic, x, momenta, speed);
   system.matchMomenta(x);
   double time = 0.0;  // of a step; from the second on
-  for (int i = 0; i < kMostCreeps; ++i) {
+  for (int i = 0; i < kMaxCreeps; ++i) {
     const Eigen::VectorXd pull = system.pull(x);
     const Eigen::MatrixXd slope = system.slope(x);
     const Eigen::MatrixXd inertia = system.inertia(x);

@@ -1,5 +1,5 @@
-// Newton's method for one steady motion: the shape rests, the cyclic coordinates move at constant
-// rates.
+// Newton's method for one steady motion: the shape is constant, the cyclic coordinates move at
+// constant rates.
 #pragma once
 
 #include <Eigen/Core>

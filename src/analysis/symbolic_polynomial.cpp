@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cctype>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr int kHighestPower = 20;          // of the symbol, that is read
-constexpr std::size_t kLongestExact = 16;  // digits of a fraction, that are shown
+constexpr int kMaxPower = 20;          // of the symbol, that is read
+constexpr std::size_t kMaxExact = 16;  // digits of a fraction, that are shown
 
 void trim(std::vector<Rational>& entry) {
   while (!entry.empty() && entry.back() == 0) {
@@ -101,7 +101,7 @@ class Expression {
     ++at_;
     next();
     const std::string digits = takeWhile([](char c) { return std::isdigit(c) != 0; });
-    if (digits.empty() || digits.size() > 2 || std::stoi(digits) > kHighestPower) {
+    if (digits.empty() || digits.size() > 2 || std::stoi(digits) > kMaxPower) {
       reject();
     }
     SymbolicPolynomial value = Rational(1);
@@ -164,7 +164,7 @@ class Expression {
     return at_ < text_.size() ? text_[at_] : '\0';
   }
   [[noreturn]] void reject() const {
-    throw Refusal(fmt::format(
+    throw InputError(fmt::format(
         "expected a finite decimal number, a fraction{}, found \"{}\"",
         symbol_.empty()
             ? " or a complex number such as 3+2i"
@@ -273,7 +273,7 @@ SymbolicPolynomial squareFree(const SymbolicPolynomial& polynomial) {
 
 std::string text(const Rational& number) {
   const std::string exact = number.str();
-  return exact.size() <= kLongestExact ? exact : fmt::format("{:.6g}", toDouble(number));
+  return exact.size() <= kMaxExact ? exact : fmt::format("{:.6g}", toDouble(number));
 }
 
 std::string text(const SymbolicPolynomial& polynomial, const std::string& symbol) {

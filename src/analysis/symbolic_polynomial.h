@@ -44,7 +44,7 @@ std::string text(const Rational& number);
 
 /// Sums, differences and products of decimal numbers and the symbol, powers of it, brackets, and
 /// quotients by numbers: "2K", "(K + 1)/3", "0.5*K^2 - 1/3". `symbol` "": numbers only. Throws
-/// Refusal.
+/// InputError.
 SymbolicPolynomial parseSymbolic(const std::string& text, const std::string& symbol);
 
 /// numerator / denominator without a common factor, the denominator's leading coefficient positive

@@ -76,8 +76,8 @@ BandedPencil<Complex> pencilOfPiece(const BandedRotor& rotor, double from, doubl
   return p;
 }
 
-/// Poles of a piece of a long rotor: those of resonances (kWidest) and some others. Nothing where
-/// rootsWithin() tells nothing.
+/// Poles of a piece for a rotor with many coordinates: those of resonances (kWidest) and some
+/// others. Nothing where rootsWithin() has no result.
 std::optional<std::vector<Complex>> lowestPolesOfPiece(const BandedRotor& rotor, double from,
                                                        double to) {
   const auto found = rootsWithin(pencilOfPiece(rotor, from, to), kRoundPiece * (to - from));
@@ -85,7 +85,7 @@ std::optional<std::vector<Complex>> lowestPolesOfPiece(const BandedRotor& rotor,
     return std::nullopt;
   }
   std::vector<Complex> poles;
-  for (const PencilRoot& root : found->roots) {
+  for (const RefinedEigenpair& root : found->roots) {
     poles.push_back(0.5 * (from + to) + root.value);
   }
   return poles;
@@ -147,10 +147,10 @@ std::vector<Complex> synchronousPoles(const LinearRotor& rotor, double low, doub
   ends.push_back(high);
   std::vector<Complex> found;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    // Of the whole range every piece of the polynomial tells the same: a short one tells it best.
+    // Over the whole range every piece has the same polynomial: a short piece is the most accurate.
     const double to = simple ? std::min(high, 100.0 * low) : ends[i + 1];
     std::optional<std::vector<Complex>> poles;
-    if (rotor.dof() > kMostCompleteCoordinates) {
+    if (rotor.dof() > kMaxCompleteCoordinates) {
       poles = lowestPolesOfPiece(chain, ends[i], ends[i + 1]);
     }
     for (const Complex& pole : poles ? *poles : polesOfPiece(rotor, ends[i], to, to)) {

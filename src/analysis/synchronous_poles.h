@@ -2,10 +2,10 @@
 //
 //   det(K + N - w^2 M + i w (C + G)) = 0.
 //
-// Each with a positive real part stands for a resonance near Re w, about |Im w| wide; between poles
-// the response is smooth. The matrices may follow the speed: where they are polynomials of degree
-// two in it (gyroscopic moments, rotating damping) the poles are exact, else found piece by piece
-// with the polynomial through three speeds of each.
+// Each with a positive real part corresponds to a resonance near Re w, with a width of about |Im
+// w|; between poles the response is smooth. The matrices may depend on the speed: where they are
+// polynomials of degree two in it (gyroscopic moments, rotating damping) the poles are exact, else
+// they are computed piecewise from the polynomial through three speeds of each piece.
 #pragma once
 
 #include <complex>
@@ -22,7 +22,7 @@ std::vector<std::complex<double>> synchronousPoles(const LinearRotor& rotor, dou
 /// K + N - w^2 M + i w (C + G) at a speed w [rad/s].
 Eigen::MatrixXcd synchronousStiffness(const Linearization& matrices, double speed);
 
-/// Where to look for peaks between `low` and `high` [rad/s]: `coarse` speeds in equal ratios, and
+/// Speeds of the peak search between `low` and `high` [rad/s]: `coarse` speeds in equal ratios, and
 /// some around each pole in units of its width. Ascending.
 std::vector<double> speedsToLookAt(const std::vector<std::complex<double>>& poles, double low,
                                    double high, int coarse);

@@ -1,9 +1,9 @@
-// Steady response of a linear rotor to what turns with its shaft, its unbalance and its bow:
+// Steady response of a linear rotor to its synchronous forces, unbalance and bow:
 //
 //   (K + N - w^2 M + i w (C + G)) X = F(w),   q = Re(X e^(i theta)), theta the shaft's angle.
 //
 // (Friswell et al., Dynamics of Rotating Machines, 2010, 6.3.) An amplitude's argument is its lead
-// over the shaft's mark; probes show the lag, minus it.
+// over the shaft's phase reference; probes show the lag, its negative.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,11 +30,11 @@ std::vector<SynchronousResponse> synchronousSweep(const LinearRotor& rotor,
                                                   const std::vector<Station>& stations, double from,
                                                   double to, int points);
 
-/// [rad] in (-pi, pi]: by how much the forward whirl lags the phase mark, which stands at
+/// [rad] in (-pi, pi]: lag of the forward whirl behind the phase reference, at the angle
 /// `phase_mark` [rad] on the shaft.
 double phaseLag(const Orbit& orbit, double phase_mark);
 
-/// Has the rotor anything that turns with its shaft?
+/// Whether the rotor has a synchronous force.
 bool hasSynchronousForce(const LinearRotor& rotor);
 
 }  // namespace whirl_twin

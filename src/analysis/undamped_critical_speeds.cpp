@@ -8,7 +8,7 @@
 #include "algebra/dense.h"
 #include "analysis/polynomial_roots.h"
 #include "analysis/whirl_modes.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 
 constexpr Index kPlane = 2;  // coordinates of a node: x, beta
 
-/// The rotor without what it stands on, in the plane of x and beta.
+/// The rotor without its supports, in the plane of x and beta.
 struct ForwardWhirl {
   MatrixXd stiffness;  ///< K
   MatrixXd inertia;    ///< M - G1
@@ -106,7 +106,7 @@ CriticalSpeedMap criticalSpeedMap(const FlexibleShaft& shaft, const std::vector<
                                   double from, double to, int points, std::size_t modes) {
   const std::set<int> places(supports.begin(), supports.end());
   if (places.size() < 2) {
-    throw Refusal("critical speed map: expected bearings at two nodes or more");
+    throw InputError("critical speed map: expected bearings at two nodes or more");
   }
   const ForwardWhirl whirl = forwardWhirl(shaft);
   CriticalSpeedMap map;
@@ -240,7 +240,8 @@ std::vector<UndampedCriticalSpeed> undampedCriticalSpeeds(const LinearRotor& rot
     }
     const double speed = speeds[first];
     const Pencil there = pencil(rotor, speed, true);
-    // The shapes whose w^2 mu is nearest to 1, those of one critical speed told apart by direction.
+    // The shapes whose w^2 mu is nearest to 1, those of one critical speed distinguished by
+    // direction.
     const VectorXd distance = (speed * speed * there.mu.array() - 1.0).abs();
     std::vector<Index> order(static_cast<std::size_t>(distance.size()));
     for (std::size_t i = 0; i < order.size(); ++i) {

@@ -17,10 +17,9 @@
 namespace whirl_twin {
 
 // Critical speed map: the undamped forward critical speeds of a flexible rotor over the stiffness k
-// of its bearings, which stand on rigid ground, hold alike in all directions and do not damp (API
-// RP 684, 2.3; J. Vance, Rotordynamics of Turbomachinery, 1988). Where k is small the rotor moves
-// as a rigid body on springs, w ~ sqrt(k); where it is large it bends between pins and w no longer
-// depends on k.
+// of its bearings, on rigid ground, isotropic and undamped (API RP 684, 2.3; J. Vance,
+// Rotordynamics of Turbomachinery, 1988). Where k is small the rotor moves as a rigid body on
+// springs, w ~ sqrt(k); where it is large it bends between pins and w no longer depends on k.
 //
 // A round rotor on such bearings whirls in circles: with y = -i x and alpha = i beta forward whirl
 // needs one plane only, and at w equal to the speed
@@ -37,8 +36,8 @@ struct CriticalSpeedMap {
 
 /// Of the `modes` lowest, or as many as there are, `points` >= 2 stiffnesses from `from` to `to`
 /// [N/m] in equal ratios, at the nodes `supports`. Bearings of the shaft itself, pedestals and
-/// damping are left out. Throws Refusal for fewer than two supports; RunFailure for a shaft that
-/// buckles.
+/// damping are neglected. Throws InputError for fewer than two supports; RunFailure for a shaft
+/// that buckles.
 CriticalSpeedMap criticalSpeedMap(const FlexibleShaft& shaft, const std::vector<int>& supports,
                                   double from, double to, int points, std::size_t modes);
 

@@ -78,7 +78,7 @@ std::optional<Mode> leastDamped(const Dynamics& mean, const SteadyMotion& motion
 struct Width {
   std::string coordinate;  ///< in which
   double of_shape = 0.0;
-  double widest = 0.0;  ///< [rad] or [m], that is looked at
+  double widest = 0.0;  ///< [rad] or [m], search limit
 };
 
 Width widthOf(const Dynamics& dynamics, const VectorXcd& shape) {
@@ -105,7 +105,7 @@ Width widthOf(const Dynamics& dynamics, const VectorXcd& shape) {
 
 }  // namespace
 
-std::optional<DecrementAmplitude> decrementAmplitude(const Dynamics& dynamics,
+std::optional<LinearDampingLimit> linearDampingLimit(const Dynamics& dynamics,
                                                      const SteadyMotion& motion, double speed) {
   if (timeDependence(dynamics, speed).period) {
     return std::nullopt;  // no mode of the mean loads decays as the motion does
@@ -116,12 +116,12 @@ std::optional<DecrementAmplitude> decrementAmplitude(const Dynamics& dynamics,
     return std::nullopt;
   }
   const Width width = widthOf(dynamics, mode->shape);
-  DecrementAmplitude found{std::numeric_limits<double>::infinity(), width.coordinate};
+  LinearDampingLimit found{std::numeric_limits<double>::infinity(), width.coordinate};
   if (dynamics.linear() || !(width.of_shape > 0.0)) {
     return found;
   }
   const Index n = mean.dof();
-  const Moment<double> at{0.0, 0.0, speed, 0.0};
+  const EvaluationPoint<double> at{0.0, 0.0, speed, 0.0};
   const VectorXd rest = mean.acceleration(motion.q, motion.v, at);
   const auto decrementAt = [&](double amplitude) {
     Complex sum = 0.0;
@@ -166,7 +166,7 @@ bool hasConditions(const Dynamics& dynamics) {
 }
 
 std::vector<Condition> validity(const Dynamics& dynamics, const Eigen::VectorXd& q,
-                                const Eigen::VectorXd& v, const Moment<double>& at) {
+                                const Eigen::VectorXd& v, const EvaluationPoint<double>& at) {
   std::vector<Condition> all = dynamics.conditions(q, v, dynamics.acceleration(q, v, at), at);
   const std::string reason = dynamics.singularMass();
   if (!reason.empty()) {

@@ -1,5 +1,5 @@
-// Do the equations of a system describe the machine at this state? A disc may have lifted off, a
-// slider left its rod, a plank tipped, a coordinate lost its inertia.
+// Validity of the equations of a system at a state: a disc may have lifted off, a slider left its
+// rod, a plank tipped, a coordinate lost its inertia.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,7 @@ namespace whirl_twin {
 /// A decrement belongs to an amplitude where it is no further from that of small motions.
 constexpr double kSameDecrement = 0.1;  // [-], of it
 
-struct DecrementAmplitude {
+struct LinearDampingLimit {
   double amplitude = 0.0;  ///< [rad] or [m]; infinite: as far as was looked, half a turn or
                            ///< naturalLength()
   std::string coordinate;  ///< of it, that which moves most; of a rotor "whirl": its radius at the
@@ -32,8 +32,8 @@ struct DecrementAmplitude {
 };
 
 /// Of the least damped vibration about a steady motion at a shaft speed [rad/s]. Nothing where
-/// nothing vibrates, or two modes are one (their shapes then tell nothing).
-std::optional<DecrementAmplitude> decrementAmplitude(const Dynamics& dynamics,
+/// nothing vibrates, or two modes coincide (their shapes are then undefined).
+std::optional<LinearDampingLimit> linearDampingLimit(const Dynamics& dynamics,
                                                      const SteadyMotion& motion, double speed);
 
 /// Does the system have conditions at all?
@@ -42,7 +42,7 @@ bool hasConditions(const Dynamics& dynamics);
 /// Every condition of the model, and `regular_mass` where its mass matrix can become singular:
 /// there the accelerations are mostly rounding. Each holds while its margin > 0.
 std::vector<Condition> validity(const Dynamics& dynamics, const Eigen::VectorXd& q,
-                                const Eigen::VectorXd& v, const Moment<double>& at);
+                                const Eigen::VectorXd& v, const EvaluationPoint<double>& at);
 
 /// The conditions broken, in words: "the disc lifts off its plane (contact)"; "" if all hold. With
 /// their margins, "(contact -0.31 N)".

@@ -7,10 +7,10 @@
 #include "algebra/dense.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/flexibility_form.h"
-#include "analysis/growth_radius.h"
 #include "analysis/lowest_eigenvalues.h"
 #include "analysis/stability_margins.h"
-#include "messages/refusal.h"
+#include "analysis/unstable_root_bound.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -118,7 +118,7 @@ void separateRepeated(std::vector<WhirlMode>& modes, const std::vector<Station>&
   }
 }
 
-/// In order, their shapes told apart and normalised.
+/// Sorts the modes, separates coincident shapes and normalises them.
 void finish(WhirlModes& all, const std::vector<Station>& stations) {
   std::sort(all.modes.begin(), all.modes.end(), [](const WhirlMode& a, const WhirlMode& b) {
     return a.eigenvalue.imag() < b.eigenvalue.imag();
@@ -139,9 +139,9 @@ std::optional<WhirlModes> lowestWhirlModes(const BandedLinearization& at_speed,
   if (!found) {
     return std::nullopt;
   }
-  const bool cannot_grow = growthRadius(at_speed) == 0.0;
+  const bool cannot_grow = unstableRootBound(at_speed) == 0.0;
   WhirlModes all;
-  for (const PencilRoot& root : found->roots) {
+  for (const RefinedEigenpair& root : found->roots) {
     const Complex s = root.value;
     if (std::fabs(s.imag()) <= kZero * std::abs(s)) {
       all.real_roots.push_back(s.real());

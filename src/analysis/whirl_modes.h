@@ -42,16 +42,16 @@ struct WhirlModes {
   std::vector<double> real_roots;  ///< [1/s], ascending: overdamped motions, and 0 of free ones
 };
 
-/// Modes that have one eigenvalue (to 1e-7 of it) and so no shapes of their own are told apart by
-/// their direction: of a round rotor one is forward, one backward. Zero eigenvalues of rigid-body
-/// modes are zero, and where no energy comes in (cannotGrow) a real part that is rounding is what
-/// the damping of the shape makes it: without damping, exactly 0.
+/// Modes with equal eigenvalues (to a relative 1e-7), whose shapes are not unique, are separated by
+/// direction: for a round rotor one is forward, one backward. Zero eigenvalues of rigid-body modes
+/// are exactly zero, and where no energy is supplied (cannotGrow) a real part within rounding is
+/// computed from the damping of the shape: without damping, exactly 0.
 WhirlModes whirlModes(const Linearization& at_speed, const std::vector<Station>& stations);
 /// At a speed [rad/s].
 WhirlModes whirlModes(const LinearRotor& rotor, const std::vector<Station>& stations, double speed);
 
-/// The `count` of lowest frequency or more, and the real roots among as many, without a dense
-/// solution. Nothing where lowestRoots() tells nothing.
+/// The `count` modes of lowest frequency or more, and the real roots among as many, without a dense
+/// solution. Nothing where lowestRoots() has no result.
 std::optional<WhirlModes> lowestWhirlModes(const BandedLinearization& at_speed,
                                            const std::vector<Station>& stations, std::size_t count);
 
@@ -61,8 +61,8 @@ void normalise(WhirlMode& mode, const std::vector<Station>& stations);
 /// The orbits of a motion Re(shape e^(i wt)) at the stations [m].
 std::vector<Orbit> orbitsOf(const Eigen::VectorXcd& shape, const std::vector<Station>& stations);
 
-/// Direction of a whole shaft: kMixed where stations disagree. One that moves less than 1e-6 of the
-/// widest has no say.
+/// Direction of a whole shaft: kMixed where stations disagree. Stations with less than 1e-6 of the
+/// largest amplitude are ignored.
 Whirl whirlOf(const std::vector<Orbit>& orbits);
 
 /// Other shapes of the same space (columns): as forward as can be first, backward last.

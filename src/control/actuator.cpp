@@ -18,7 +18,7 @@ bool Actuator::take(double told) noexcept {
   const double change = within - value_;
   value_ += std::copysign(most_, change);
   if (std::fabs(change) <= most_ || std::fabs(within - value_) <= 1.0e-15 * std::fabs(within)) {
-    value_ = within;  // what it is told, not that but for rounding
+    value_ = within;  // the command itself, free of rounding
   }
   return value_ == wanted;
 }

@@ -1,17 +1,16 @@
-// An actuator between two samples of its controller: what it is told, as it can.
+// Actuator model between two samples of its controller.
 //
-//   output -> resolution -> limit -> slew -> held until the next -> lag
+//   output -> resolution -> limit -> slew -> zero-order hold -> lag
 //
-// The lag is that of what follows the held value all the time, as a current its amplifier: a state
-// of its own between the instants, of the input that it acts on (control/inputs.h).
+// The lag is a continuous first-order lag of the held value, as of a current amplifier: it is a
+// state of the input that the actuator acts on (control/inputs.h).
 #pragma once
 
 namespace whirl_twin {
 
-/// How an actuator departs from what it is told, in the unit of the input that it acts on; 0: it
-/// does not.
+/// Deviations of an actuator from its command, in the unit of the input that it acts on; 0: none.
 struct ActuatorSettings {
-  double limit = 0.0;       ///< it gives no more than +- this
+  double limit = 0.0;       ///< output limited to +- this
   double slew = 0.0;        ///< [1/s], it changes no faster: by slew / rate from sample to sample
   double resolution = 0.0;  ///< of the converter: outputs are whole multiples of it
   double bandwidth = 0.0;   ///< [Hz], of a first-order lag, i' = 2 pi bandwidth (held - i)
@@ -24,9 +23,9 @@ class Actuator {
   // Real-time safe.
 
   void reset() noexcept { value_ = 0.0; }
-  /// Told a finite value: false where it cannot give that.
+  /// Sets the command, a finite value: false where the actuator cannot reach it.
   bool take(double told) noexcept;
-  /// What it is held at, before its lag.
+  /// The held value, before the lag.
   double value() const noexcept { return value_; }
 
  private:

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace {
@@ -17,7 +17,7 @@ constexpr double kNoneBefore = std::numeric_limits<double>::quiet_NaN();
 
 bool runsTooFast(const BandedChange& plan) noexcept {
   return std::any_of(plan.speeds.begin(), plan.speeds.begin() + plan.count,
-                     [](double speed) { return !(std::abs(speed) <= kLargestSpeed); });
+                     [](double speed) { return !(std::abs(speed) <= kMaxSpeed); });
 }
 
 }  // namespace
@@ -27,11 +27,11 @@ Drive::Drive(double speed, double angle) : Drive(speed, angle, {}) {}
 Drive::Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
              std::int64_t start_nanoseconds, ExclusionBands avoid)
     : avoid_(std::move(avoid)) {
-  if (!(std::abs(speed) <= kLargestSpeed)) {
-    throw Refusal(fmt::format("drive: speed must be within +-1e6 rad/s, found {}", speed));
+  if (!(std::abs(speed) <= kMaxSpeed)) {
+    throw InputError(fmt::format("drive: speed must be within +-1e6 rad/s, found {}", speed));
   }
   if (!(std::abs(angle) <= 1.0e15)) {
-    throw Refusal(fmt::format("drive: angle must be within +-1e15 rad, found {}", angle));
+    throw InputError(fmt::format("drive: angle must be within +-1e15 rad, found {}", angle));
   }
 
   const auto append = [this](const SpeedSegment& motion, double target) {
@@ -50,26 +50,26 @@ Drive::Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const SpeedMove& move = moves[i];
     if (const auto fault = faultOf(move)) {
-      throw Refusal(fmt::format("drive: profile move {}: {}, found {}", i + 1, fault->expected,
-                                fault->found));
+      throw InputError(fmt::format("drive: profile move {}: {}, found {}", i + 1, fault->expected,
+                                   fault->found));
     }
     const double allowed =
         avoid_.allowed(move.speed, move.max_acceleration, move.max_jerk, kNoneBefore);
     if (allowed != move.speed) {
-      throw Refusal(fmt::format(
-          "drive: profile move {}: speed must be outside the barred speed ranges, found {}, "
-          "nearest edge {}",
+      throw InputError(fmt::format(
+          "drive: profile move {}: speed must be outside the barred speed ranges, found {} rad/s, "
+          "nearest edge {} rad/s",
           i + 1, move.speed, allowed));
     }
     const BandedChange plan = avoid_.plan(speed, 0.0, move);
     if (runsTooFast(plan)) {
-      throw Refusal(fmt::format(
+      throw InputError(fmt::format(
           "drive: profile move {}: must not exceed 1e6 rad/s when crossing a barred speed range",
           i + 1));
     }
     total += plan.duration + move.dwell;
-    if (!(total <= kLongestDuration)) {
-      throw Refusal(fmt::format(
+    if (!(total <= kMaxDuration)) {
+      throw InputError(fmt::format(
           "drive: profile move {}: the profile up to its end must last at most 1e9 s, found {} s",
           i + 1, total));
     }
@@ -196,12 +196,12 @@ void Drive::findPlace(StateImage& image) noexcept {
   for (std::size_t i = 0; i < live_count_; ++i) {
     const Segment& segment = live_[i];
     const bool last = i + 1 == live_count_;
-    sound =
-        sound &&
-        (last ? segment.motion.duration == kForever
-              : segment.motion.duration >= 0.0 && segment.motion.duration <= kLongestDuration) &&
-        std::abs(segment.motion.speed) <= kLargestSpeed &&
-        std::abs(segment.angle.remainder) < 7.0 && segment.lead >= 0.0 && segment.lead <= 1.0e-9;
+    sound = sound &&
+            (last ? segment.motion.duration == kForever
+                  : segment.motion.duration >= 0.0 && segment.motion.duration <= kMaxDuration) &&
+            std::abs(segment.motion.speed) <= kMaxSpeed &&
+            std::abs(segment.angle.remainder) < 7.0 && segment.lead >= 0.0 &&
+            segment.lead <= 1.0e-9;
   }
   if (!image.require(sound)) {
     live_count_ = 0;
@@ -244,13 +244,12 @@ double Drive::cornerBeyond(double offset) const noexcept {
 
 bool Drive::setSpeed(double speed, double max_acceleration, double max_jerk) noexcept {
   SpeedMove move{speed, max_acceleration, max_jerk, 0.0};
-  if (faultOf(move) ||
-      !(std::abs(stoppingSpeed(speed_, acceleration_, max_jerk)) <= kLargestSpeed)) {
+  if (faultOf(move) || !(std::abs(stoppingSpeed(speed_, acceleration_, max_jerk)) <= kMaxSpeed)) {
     return false;
   }
   move.speed = avoid_.allowed(speed, max_acceleration, max_jerk, targetSpeed());
   const BandedChange plan = avoid_.plan(speed_, acceleration_, move);
-  if (!(plan.duration <= kLongestDuration) || runsTooFast(plan)) {
+  if (!(plan.duration <= kMaxDuration) || runsTooFast(plan)) {
     return false;
   }
 

@@ -6,11 +6,11 @@
 // The pieces' durations, jerks and starting values, rounded to doubles, define the motion. Against
 // it angle() is within 3e-15 rad for each piece passed, whatever the time (up to 1e15 rad turned),
 // and at(offset) within a few ulp of (2 pi + speed * offset). Speed and acceleration are continuous
-// from piece to piece up to a few ulp of the largest ones in the move, and the speed asked for is
+// from piece to piece up to a few ulp of the largest ones in the move, and the commanded speed is
 // reached exactly. A piece's limits are whole nanoseconds and a fraction, exact to 1e-16 ns.
 //
-// A drive may have bands of speeds to avoid: its moves cross them at full acceleration and do not
-// end in them (exclusion_bands.h).
+// A drive may have barred speed ranges: its moves cross them at full acceleration and do not end in
+// them (exclusion_bands.h).
 #pragma once
 
 #include <array>
@@ -35,8 +35,8 @@ struct ShaftMotion {
   double jerk;          ///< [rad/s^3]
 };
 
-/// A shaft whose motion is prescribed. Copies are independent of each other. It belongs to one
-/// thread, also to be read: the angle of a constant speed is worked out when it is asked for.
+/// A shaft whose motion is prescribed. Copies are independent of each other. Not thread-safe, even
+/// for reading: the angle at constant speed is computed on demand.
 class Drive {
  public:
   // Not real-time safe.
@@ -45,7 +45,7 @@ class Drive {
   Drive(double speed, double angle);
 
   /// Moves that follow one another from `speed` and `angle` at simulated time `start_nanoseconds`,
-  /// past the bands to avoid. Throws Refusal that names the move and the value.
+  /// across the barred speed ranges. Throws InputError that names the move and the value.
   Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
         std::int64_t start_nanoseconds = 0, ExclusionBands avoid = {});
 
@@ -82,7 +82,8 @@ class Drive {
             acceleration_ + offset * jerk_, jerk_};
   }
 
-  /// Motion at offset [s] >= 0 after begin(), with an angle of 0: that takes longer than the rest.
+  /// Motion at offset [s] >= 0 after begin(), with an angle of 0: computing the angle takes longer
+  /// than the other values.
   ShaftMotion withoutAngle(double offset) const noexcept {
     if (__builtin_expect(offset > remaining_, 0)) {
       ShaftMotion motion = beyond(offset);
@@ -103,8 +104,8 @@ class Drive {
 
   /// Of begin().
   std::int64_t nanoseconds() const noexcept { return time_; }
-  /// Another number whenever another piece of constant jerk is entered: from one time to another
-  /// with the same number the shaft has turned as that piece says.
+  /// Number of the piece of constant jerk, changed on entry to each piece: between two times with
+  /// the same number the shaft has turned as that piece specifies.
   std::uint64_t piece() const noexcept { return piece_; }
 
   /// The speed is constant from begin() for a duration [s].
@@ -112,27 +113,27 @@ class Drive {
     return acceleration_ == 0.0 && jerk_ == 0.0 && duration <= remaining_;
   }
 
-  /// The first corner of the motion, where its jerk changes, after an offset [s] >= 0 from begin();
-  /// infinity if there is none.
+  /// The first breakpoint of the motion, where its jerk changes, after an offset [s] >= 0 from
+  /// begin(); infinity if there is none.
   double nextCorner(double offset) const noexcept {
     return offset < remaining_ ? remaining_ : cornerBeyond(offset);
   }
 
-  /// Speed [rad/s] at which the present move ends, whatever it does on the way for a band.
+  /// Final speed [rad/s] of the present move, regardless of detours for a barred range.
   double targetSpeed() const noexcept { return segments()[cursor_].target; }
 
-  /// From the instant of the last begin(), replaces what is left of the profile by one move to
+  /// From the instant of the last begin(), replaces the remainder of the profile by one move to
   /// `speed` [rad/s] within max_acceleration [rad/s^2] and max_jerk [rad/s^3], or to the edge of a
-  /// band that it is in. Speed and acceleration go on from their present values; only with max_jerk
-  /// 0 may the acceleration jump. False, with nothing changed, for bad arguments: not finite, a
-  /// limit not positive (jerk: negative), a speed beyond kLargestSpeed asked for or run through, a
-  /// move that would last longer than kLongestDuration.
+  /// band that it is in. Speed and acceleration continue from their present values; only with
+  /// max_jerk 0 may the acceleration jump. False, with nothing changed, for bad arguments: not
+  /// finite, a limit not positive (jerk: negative), a requested or intermediate speed beyond
+  /// kMaxSpeed, a move that would last longer than kMaxDuration.
   bool setSpeed(double speed, double max_acceleration, double max_jerk) noexcept;
 
   /// Duration [s] of the last setSpeed() move; 0 without one.
   double moveDuration() const noexcept { return move_duration_; }
 
-  /// Back to the profile given at construction, and to its first instant.
+  /// Restores the profile given at construction, at its first instant.
   void reset() noexcept;
   void exchange(StateImage& image) noexcept {
     image(live_, live_count_, cursor_, move_duration_, piece_, first_tick_, until_, next_lead_,
@@ -162,7 +163,7 @@ class Drive {
   }
   void beginInProfile() noexcept;
   void enter(std::int64_t time_nanoseconds) noexcept;
-  /// After pieces, time and number of the piece were put back: all that follows from them.
+  /// After pieces, time and number of the piece were restored: recomputes all derived values.
   void findPlace(StateImage& image) noexcept;
   void findAngle() const noexcept;
   ShaftMotion beyond(double offset) const noexcept;
@@ -173,9 +174,8 @@ class Drive {
 
   ExclusionBands avoid_;
   std::vector<Segment> profile_;
-  std::array<Segment, BandedChange::kMostPieces + 1>
-      live_{};                  // the last setSpeed() move, and after
-  std::size_t live_count_ = 0;  // 0: the profile holds
+  std::array<Segment, BandedChange::kMaxPieces + 1> live_{};  // the last setSpeed() move, and after
+  std::size_t live_count_ = 0;                                // 0: the profile holds
   std::size_t cursor_ = 0;
   double move_duration_ = 0.0;
 

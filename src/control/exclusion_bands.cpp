@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace {
@@ -66,12 +66,14 @@ void appendChange(BandedChange& plan, const SpeedChange& change, double speed) n
 ExclusionBands::ExclusionBands(std::vector<SpeedBand> bands, double hysteresis)
     : hysteresis_(hysteresis) {
   if (!(hysteresis >= 0.0 && hysteresis <= 0.5)) {
-    throw Refusal(fmt::format("hysteresis must be 0 to 0.5 of a band, found {}", hysteresis));
+    throw InputError(fmt::format(
+        "hysteresis must be from 0 to 0.5 of the width of a barred speed range, found {}",
+        hysteresis));
   }
   for (const SpeedBand& band : bands) {
-    if (!(band.from > 0.0 && band.from < band.to && band.to <= kLargestSpeed)) {
-      throw Refusal(fmt::format("a band must be 0 < from < to <= {} rad/s, found from {} to {}",
-                                kLargestSpeed, band.from, band.to));
+    if (!(band.from > 0.0 && band.from < band.to && band.to <= kMaxSpeed)) {
+      throw InputError(fmt::format("a band must be 0 < from < to <= {} rad/s, found from {} to {}",
+                                   kMaxSpeed, band.from, band.to));
     }
   }
   const std::size_t given = bands.size();

@@ -1,14 +1,15 @@
-// Speeds that a shaft passes and does not stay at: bands about its critical speeds.
+// Barred speed ranges (bands) about critical speeds: a shaft passes them and does not stay there.
 //
-// A target inside a band goes to an edge, as drives have it: to the upper one from the centre on,
-// to the lower one below, and it stays with the edge it went to until it is beyond the centre by a
-// share of the band (hysteresis). Bands that overlap are one, with a centre of its own.
+// A target inside a band is moved to an edge, as in industrial drives: to the upper one from the
+// centre on, to the lower one below, and it keeps that edge until it is beyond the centre by a
+// fraction of the band (hysteresis). Overlapping bands are merged into one with a new centre.
 //
 // A band is crossed at the highest acceleration A from edge to edge: there is no schedule that
 // passes a resonance better. At a jerk J that takes a run-up of r = A^2 / (2 J) before the near
-// edge and as much beyond the far one. So a shaft that stands nearer goes back first, and one that
-// is to stop nearer comes back; and bands with a gap below r are one for this A and J. No shaft
-// turns round for that: a band nearer to rest than r is crossed at what rest allows.
+// edge and as much beyond the far one. So a shaft that starts nearer first moves away from the
+// band, and one that is to stop nearer returns; bands with a gap below r are merged for this A and
+// J. No shaft reverses for that: a band nearer to standstill than r is crossed at the acceleration
+// that a start from standstill allows.
 #pragma once
 
 #include <array>
@@ -33,11 +34,11 @@ struct SpeedBand {
 
 /// Changes of speed that follow one another, each from the end of that before.
 struct BandedChange {
-  static constexpr std::size_t kMostChanges = 4;
-  static constexpr std::size_t kMostPieces = kMostChanges * SpeedChange::kMostPieces;
+  static constexpr std::size_t kMaxChanges = 4;
+  static constexpr std::size_t kMaxPieces = kMaxChanges * SpeedChange::kMaxPieces;
 
-  std::array<SpeedChange, kMostChanges> changes;
-  std::array<double, kMostChanges> speeds;  ///< [rad/s], at which each ends
+  std::array<SpeedChange, kMaxChanges> changes;
+  std::array<double, kMaxChanges> speeds;  ///< [rad/s], at which each ends
   std::size_t count = 0;
   double duration = 0.0;  ///< [s]
 };
@@ -48,11 +49,11 @@ class ExclusionBands {
 
   ExclusionBands() = default;
   /// In any order; of both senses of rotation. hysteresis [-], 0 to 0.5: share of a band. Throws
-  /// Refusal for a band whose edges are not 0 < from < to, and for another hysteresis.
+  /// InputError for a band whose edges are not 0 < from < to, and for another hysteresis.
   explicit ExclusionBands(std::vector<SpeedBand> bands, double hysteresis = 0.1);
 
   bool empty() const { return bands_.empty(); }
-  /// As they are merged, of both senses, in rising order.
+  /// The merged bands of both senses of rotation, in ascending order.
   const std::vector<SpeedBand>& bands() const { return bands_; }
 
   // Real-time safe: no allocation, no lock, no exception.
@@ -67,10 +68,11 @@ class ExclusionBands {
   std::optional<SpeedBand> bandOf(double target, double max_acceleration,
                                   double max_jerk) const noexcept;
 
-  /// From a speed and an acceleration to an allowed one: the least moves that cross each band at
-  /// full acceleration. What is inside a band goes on if it is at full acceleration, or leaves by
-  /// the edge it can reach first; so does what cannot stop before one. The move must be sound
-  /// (faultOf), its speed allowed(). To speed 0 it is the fastest stop that honours the bands.
+  /// From a speed and an acceleration to an allowed speed: the smallest number of moves that cross
+  /// each band at full acceleration. A start inside a band continues if it is at full acceleration,
+  /// or leaves by the edge it can reach first; so does a start that cannot stop before a band. The
+  /// move must be valid (faultOf), its speed allowed(). To speed 0 it is the fastest stop that
+  /// honours the bands.
   BandedChange plan(double speed, double acceleration, const SpeedMove& move) const noexcept;
 
  private:

@@ -15,7 +15,7 @@ double dampedFrequency(double frequency, double damping_ratio) {
   return frequency * std::sqrt((1.0 - damping_ratio) * (1.0 + damping_ratio));
 }
 
-/// What is left of an amplitude after half a period.
+/// Ratio of amplitudes half a period apart.
 double halfPeriodDecay(double damping_ratio) {
   return std::exp(-kPi * damping_ratio / dampedFrequency(1.0, damping_ratio));
 }

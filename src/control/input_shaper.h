@@ -1,7 +1,8 @@
-// Input shaping: a command given in parts, so that what it sets swinging has come to rest when the
-// last part is given (N. C. Singer, W. P. Seering, "Preshaping command inputs to reduce system
-// vibration", J. Dynamic Systems, Measurement, and Control 112 (1990) 76). ZV, two parts half a
-// period apart, leaves nothing of an oscillation it knows; ZVD, three, little of one near it.
+// Input shaping: a command is divided into delayed parts that leave no residual vibration after the
+// last part (N. C. Singer, W. P. Seering, "Preshaping command inputs to reduce system vibration",
+// J. Dynamic Systems, Measurement, and Control 112 (1990) 76). ZV, two parts half a period apart,
+// cancels an oscillation of exactly known frequency; ZVD, three parts, is robust against frequency
+// errors.
 #pragma once
 
 #include <vector>
@@ -10,7 +11,7 @@
 
 namespace whirl_twin {
 
-/// A part of a command, as a share of the whole, and how late it is given.
+/// A part of a command, as a fraction of the whole, and its delay.
 struct ShapedPart {
   double share;  ///< [-]; those of a shaper add up to 1
   double time;   ///< [s]
@@ -22,8 +23,8 @@ std::vector<ShapedPart> zeroVibration(double frequency, double damping_ratio);
 /// ZVD, likewise: flat in the frequency, a period long.
 std::vector<ShapedPart> zeroVibrationDerivative(double frequency, double damping_ratio);
 
-/// What is left of an oscillation after the last part, in parts of what the whole command at once
-/// would have left by then.
+/// Residual oscillation after the last part, relative to that of the unshaped command at the same
+/// time.
 double residualVibration(const std::vector<ShapedPart>& shaper, double frequency,
                          double damping_ratio);
 

@@ -48,7 +48,7 @@ SignalFault faultOf(const InputSignal& signal) {
   if (!(std::fabs(signal.frequency) <= kLargestFrequency)) {
     return {"frequency", "must be within +-1e6 rad/s", 0};
   }
-  if (!(std::fabs(signal.phase) <= kLargestPhase)) {
+  if (!(std::fabs(signal.phase) <= kMaxPhase)) {
     return {"phase", "must be within +-1e15 rad", 0};
   }
   if (!(signal.pole >= 0.0 && std::isfinite(signal.pole))) {

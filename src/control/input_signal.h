@@ -1,6 +1,6 @@
-// What an input of a system follows: a force, a torque, the motion of a support. It is
+// Signal of an input of a system: a force, a torque, the motion of a support. It is
 //
-//   held      a constant, or what a command last set it to: the same over whole steps
+//   held      a constant, or the value of the last command: the same over whole steps
 //   harmonic  amplitude cos(frequency t + phase), t the simulated time
 //   table     values at instants, held from one instant to the next or linear between them; before
 //             the first and after the last it keeps their values
@@ -8,7 +8,7 @@
 //             actuator with a lag, lag u' = held - u, from instant to instant exactly; 0 before
 //
 // Instants are whole nanoseconds of simulated time and a harmonic's phase is counted in integers
-// (SteadyTurn), so that neither wears off over any number of steps.
+// (SteadyTurn), so that neither accumulates an error over any number of steps.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@
 
 namespace whirl_twin {
 
-/// What is wrong with a signal: the field as in scene files, and what it must be.
+/// An error of a signal: the field as in scene files, and the requirement.
 struct SignalFault {
   const char* field;
   const char* expected;
@@ -26,13 +26,13 @@ struct SignalFault {
 };
 
 constexpr double kLargestFrequency = 1.0e6;  ///< [rad/s]: phases stay below 1e15 rad for 31 years
-constexpr double kLargestPhase = 1.0e15;     ///< [rad]
+constexpr double kMaxPhase = 1.0e15;         ///< [rad]
 
 struct InputSignal {
   enum class Kind { kNone, kHeld, kHarmonic, kTable, kControlled };
 
   Kind kind = Kind::kNone;                  ///< kNone: the input does not act
-  double value = 0.0;                       ///< kHeld: unless a command says otherwise
+  double value = 0.0;                       ///< kHeld: until a command changes it
   double amplitude = 0.0;                   ///< kHarmonic
   double frequency = 0.0;                   ///< [rad/s]
   double phase = 0.0;                       ///< [rad]
@@ -51,8 +51,8 @@ struct InputSignal {
 /// The first fault of a signal; nullptr expected: none.
 SignalFault faultOf(const InputSignal& signal);
 
-/// A signal from one of its corners to the next: from `value` on, its slope falling off as
-/// e^(-decay t); value + slope * (offset - from) where it does not.
+/// A signal between two breakpoints: from `value` on, its slope falling off as e^(-decay t); value
+/// + slope * (offset - from) where it does not.
 struct SignalPiece {
   double from = 0.0;  ///< [s] after the instant from which offsets count
   double value = 0.0;

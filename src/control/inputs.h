@@ -1,15 +1,15 @@
-// The inputs of one system while it steps, in the order in which its model names them. The twin
-// owns them as it owns drives, and steps refer to them.
+// Inputs of one system during a step, in the order of its model. The twin owns them, like drives,
+// and steps refer to them.
 //
-// A step reads them piece by piece. A piece ends at the next corner: where a held table jumps or a
-// linear one kinks. Within a piece an input is a straight line in time or a harmonic, and no step
-// has to guess on which side of a jump it stands. A command takes effect at a begin(), so that a
-// constant is the same over a whole step.
+// A step reads them piece by piece. A piece ends at the next breakpoint: a jump of a
+// piecewise-constant table or a kink of a linear one. Within a piece an input is linear in time or
+// harmonic, so that the side of a jump is always defined. A command takes effect at a begin(), so
+// that a constant is the same over a whole step.
 //
-// What a controller acts with changes at its instants, inside steps too: the twin then takes a step
-// in parts from instant to instant (Stepper::stepPart). Behind a lag it goes on from instant to
-// instant as e^(-t / lag): what it was at the last instant and the time since are all that it is,
-// so that no step adds to its error.
+// The output of a controller changes at its sample instants, inside steps too: the twin then
+// divides a step into sub-steps between these instants (Stepper::stepPart). Behind a lag the input
+// decays towards it as e^(-t / lag) between instants, evaluated in closed form from the value at
+// the last instant and the time since, so that no step adds to its error.
 #pragma once
 
 #include <cstddef>
@@ -34,9 +34,9 @@ class Inputs {
   /// One signal for each input of a model. Throws std::logic_error for one with a fault.
   explicit Inputs(const std::vector<InputSignal>& signals);
 
-  /// Steps are to be taken in parts. Their lengths [ns] are these, or sums of them.
+  /// Steps must be divided into sub-steps. Their lengths [ns] are these, or sums of them.
   void setParts(std::vector<std::int64_t> lengths) { parts_ = std::move(lengths); }
-  /// Longest first; empty: steps are taken whole.
+  /// Longest first; empty: steps are not divided.
   const std::vector<std::int64_t>& parts() const { return parts_; }
 
   std::size_t count() const noexcept { return channels_.size(); }
@@ -44,9 +44,9 @@ class Inputs {
   bool acts(std::size_t input) const {
     return channels_[input].signal.kind != InputSignal::Kind::kNone;
   }
-  /// Does any input act, or are steps taken in parts?
+  /// Whether any input acts or steps are divided.
   bool any() const;
-  /// May it have corners?
+  /// Whether it may have breakpoints.
   bool isTable(std::size_t input) const {
     return channels_[input].signal.kind == InputSignal::Kind::kTable;
   }
@@ -58,15 +58,15 @@ class Inputs {
 
   /// Starts the step at this simulated time [ns]; times may go back, too.
   void begin(std::int64_t time) noexcept;
-  /// Forgets all commands.
+  /// Discards all commands.
   void reset() noexcept;
   void exchange(StateImage& image) noexcept { image(channels_, time_); }
 
   /// From the next begin() on, a constant has this value until the simulated time `until` [ns],
-  /// then its own again. False, with nothing changed, for a value that is not finite, for an input
-  /// that there is not, and for one that is a harmonic, a table or does not act.
+  /// then its configured value again. False, with nothing changed, for a value that is not finite,
+  /// for an unknown input, and for one that is a harmonic, a table or inactive.
   bool set(std::size_t input, double value, std::int64_t until) noexcept;
-  /// What a controller acts with, or has its actuator follow, from simulated time `time` [ns] on.
+  /// The output of a controller, or the target of its actuator, from simulated time `time` [ns] on.
   void control(std::size_t input, double value, std::int64_t time) noexcept {
     Channel& channel = channels_[input];
     if (channel.signal.pole > 0.0) {
@@ -75,26 +75,26 @@ class Inputs {
     }
     channel.held = value;
   }
-  /// It acts with nothing, and has done so before.
+  /// Sets the output and its lagged value to zero.
   void release(std::size_t input) noexcept {
     channels_[input].held = channels_[input].lagging = 0.0;
     channels_[input].since = time_;
   }
   /// [ns], of the last begin().
   std::int64_t begun() const noexcept { return time_; }
-  /// [1/s], at which it follows what it is held at; 0: at once.
+  /// [1/s], rate of the first-order lag behind the held value; 0: no lag.
   double pole(std::size_t input) const noexcept { return channels_[input].signal.pole; }
-  /// Has a command that still holds.
+  /// Whether a command is active.
   bool commanded(std::size_t input) const noexcept {
     return channels_[input].command_until > time_;
   }
 
-  /// The first corner of any input later than an offset [ns] after begin(), as such an offset.
+  /// The first breakpoint of any input later than an offset [ns] after begin(), as such an offset.
   std::int64_t nextCorner(std::int64_t offset) const noexcept {
     return tables_ == 0 ? kNever : cornerAfter(offset);
   }
-  /// An input that is no harmonic from an offset [ns] after begin() to the next corner; a corner
-  /// there has been passed.
+  /// A non-harmonic input from an offset [ns] after begin() to the next breakpoint; a breakpoint at
+  /// the offset itself has been passed.
   SignalPiece piece(std::size_t input, std::int64_t offset) const noexcept;
   /// The argument [rad] of a harmonic's cosine at begin(), less whole turns.
   double phase(std::size_t input) const noexcept { return channels_[input].phase; }

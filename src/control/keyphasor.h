@@ -1,5 +1,5 @@
 // A keyphasor: a pulse each time a mark on the shaft passes the pick-up, forwards or backwards. It
-// is where phase comes from in a measurement.
+// is the phase reference of a measurement.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 //   drag:    d w                                            against the motion
 //
 // (Dimentberg et al., Physics of Vibrations, 1997; Kononenko, Vibrating Systems with a Limited
-// Power Supply, 1969.) Every law is kept as a table, so that a step treats all alike.
+// Power Supply, 1969.) Every characteristic is stored as a table, so that a step treats all alike.
 #pragma once
 
 #include <array>
@@ -21,12 +21,12 @@ struct MotorPoint {
 };
 
 struct Motor {
-  static constexpr std::size_t kMostPoints = 32;
+  static constexpr std::size_t kMaxPoints = 32;
 
-  std::array<MotorPoint, kMostPoints> points{};  ///< ascending in speed
-  std::size_t count = 0;                         ///< 0: no torque
-  bool extended = false;                         ///< the first and last line go on beyond the ends
-  double drag = 0.0;                             ///< [N m s/rad], >= 0
+  std::array<MotorPoint, kMaxPoints> points{};  ///< ascending in speed
+  std::size_t count = 0;                        ///< 0: no torque
+  bool extended = false;                        ///< the first and last line extend beyond the ends
+  double drag = 0.0;                            ///< [N m s/rad], >= 0
 
   static Motor constant(double torque, double drag = 0.0) {
     Motor motor;

@@ -34,7 +34,7 @@ namespace {
 
 constexpr double kPerWord = 1.0 / 4294967296.0;  // 2^-32
 
-/// The middle of the interval that a word stands for: never 0, never 1.
+/// The midpoint of the interval that a word represents: never 0, never 1.
 double uniform(std::uint32_t word) noexcept {
   return (static_cast<double>(word) + 0.5) * kPerWord;
 }

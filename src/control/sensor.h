@@ -1,19 +1,19 @@
-// A sensor of one signal: what its samples show instead of the signal.
+// Sensor model of one signal: filter, delay, noise, range and resolution.
 //
 //   signal s(t) -> anti-alias filter, f' = w (s - f) -> delay -> noise -> range -> resolution
 //
-// The signal is known at the steps of the twin, with its rate; between two of them it is taken as
-// the cubic through values and rates, short of a motion at w rad/s by (w h)^4 / 384 of its
-// amplitude. Through the filter that cubic goes exactly: with p = s - s'/w + s''/w^2 - s'''/w^3,
-// f(t) = p(t) + (f(0) - p(0)) e^(-w t).
+// The signal is known at the steps of the twin, with its rate; between two of them it is the cubic
+// Hermite interpolant of values and rates, whose relative error for a motion at w rad/s is (w h)^4
+// / 384. The filter response to that cubic is exact: with p = s - s'/w + s''/w^2 - s'''/w^3, f(t) =
+// p(t) + (f(0) - p(0)) e^(-w t).
 #pragma once
 
 #include <cstdint>
 
 namespace whirl_twin {
 
-// When something is sampled that has a rate of its own: sample k at k / rate after simulated time
-// 0, to the nearest nanosecond, whatever the step of the twin.
+// Sample instants at a given rate: sample k at k / rate after simulated time 0, to the nearest
+// nanosecond, independent of the step of the twin.
 
 class SampleInstants {
  public:
@@ -32,10 +32,10 @@ class SampleInstants {
   std::int64_t period_;
 };
 
-// Noise that is a function of a counter: sample k of a channel of a seed is the same number on
-// every machine, in whatever order and how often it is asked for, so that a reset or a replay gives
-// the same bytes. Philox 4x32-10 (Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as easy as
-// 1, 2, 3", SC11), by Random123; Box & Muller's transformation of two of its words.
+// Counter-based noise: sample k of a channel and seed is the same number on every machine, in any
+// order and however often it is evaluated, so that a reset or a replay is bit-identical. Philox
+// 4x32-10 (Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11), by
+// Random123; Box & Muller's transformation of two of its words.
 
 class CounterNoise {
  public:
@@ -52,7 +52,7 @@ class CounterNoise {
   std::uint32_t channel_;
 };
 
-/// How a sensor departs from what it measures, in the unit of the signal; 0: it does not.
+/// Deviations of a sensor from the signal, in the unit of the signal; 0: none.
 struct SensorSettings {
   double noise = 0.0;       ///< standard deviation of a sample
   double resolution = 0.0;  ///< of the converter: samples are whole multiples of it
@@ -78,7 +78,7 @@ struct CubicPiece {
 
 class Sensor {
  public:
-  /// channel tells the sensors of a source apart, whose noise is independent.
+  /// channel distinguishes the sensors of a source, whose noise is independent.
   Sensor(const SensorSettings& settings, std::uint32_t seed, std::uint32_t channel);
 
   const SensorSettings& settings() const { return settings_; }
@@ -87,11 +87,11 @@ class Sensor {
 
   /// The signal has been `value` for ever.
   void start(double value) noexcept { filtered_ = value; }
-  /// What comes out of the filter t [s] into the piece at whose start it stands.
+  /// Filter output t [s] after the start of the piece.
   double filtered(const CubicPiece& piece, double t) const noexcept;
-  /// Goes on to the end of the piece.
+  /// Advances the filter to the end of the piece.
   void pass(const CubicPiece& piece) noexcept { filtered_ = filtered(piece, piece.length); }
-  /// What comes out of the filter now.
+  /// The present filter output.
   double passed() const noexcept { return filtered_; }
   /// Sample k, of what came out of the filter.
   Sample sample(double filtered, std::int64_t k) const noexcept;

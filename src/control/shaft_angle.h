@@ -2,10 +2,10 @@
 // as after a second. A double that holds 1e9 rad resolves 1.2e-7 rad; the remainder alone always
 // resolves 4e-16 rad.
 //
-// What is turned in a time tau, theta = v tau + a tau^2/2 + j tau^3/6, and its reduction by 2 pi
-// are worked in double-double arithmetic: T. J. Dekker, "A floating-point technique for extending
-// the available precision", Numer. Math. 18 (1971), with std::fma for the error of a product
-// (Ogita, Rump, Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005)).
+// The angle of rotation in a time tau, theta = v tau + a tau^2/2 + j tau^3/6, and its reduction by
+// 2 pi are worked in double-double arithmetic: T. J. Dekker, "A floating-point technique for
+// extending the available precision", Numer. Math. 18 (1971), with std::fma for the error of a
+// product (Ogita, Rump, Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005)).
 //
 // Error of one call while |v tau|, |a tau^2/2| and |j tau^3/6| stay below 1e15 rad: theta is within
 // 2^-100 of the largest of them, 8e-16 rad at most; 2 pi enters with 106 bits, so 1e15 rad reduce
@@ -89,8 +89,8 @@ class SteadyTurn {
   std::int64_t lead_ = 0;  // [2^-64 turns], turned in the lead, and 2^-54 turns to round with
 };
 
-/// What a constant speed [rad/s] turns in whole nanoseconds, less whole turns: within 2^-103 of all
-/// that is turned, 2^-103 rad and 2^-124 rad for each nanosecond.
+/// The angle of a constant speed [rad/s] in whole nanoseconds, modulo whole turns: within 2^-103 of
+/// all that is turned, 2^-103 rad and 2^-124 rad for each nanosecond.
 SplitAngle turnIn(double speed, std::int64_t nanoseconds) noexcept;
 
 /// The angle advanced at a constant speed [rad/s] for whole nanoseconds; |theta| <= 1e15 rad, which

@@ -42,7 +42,7 @@ SpeedPlanner::SpeedPlanner(const ShaftLimits& limits, double max_jerk, Exclusion
   const auto rises = [&](double speed) {
     return limits.rise(speed) >= left && limits.fall(speed) >= left;
   };
-  // The corners of its law, and as far beyond the last as it has torque left.
+  // The breakpoints of its characteristic, and beyond the last as far as it has torque.
   std::vector<double> corners{0.0};
   for (std::size_t i = 0; i < limits.motor.count; ++i) {
     if (limits.motor.points[i].speed > 0.0) {
@@ -50,10 +50,10 @@ SpeedPlanner::SpeedPlanner(const ShaftLimits& limits, double max_jerk, Exclusion
     }
   }
   double beyond = std::max(1.0, corners.back());
-  while (beyond < kLargestSpeed && rises(beyond)) {
+  while (beyond < kMaxSpeed && rises(beyond)) {
     beyond *= 2.0;
   }
-  corners.push_back(std::min(beyond, kLargestSpeed));
+  corners.push_back(std::min(beyond, kMaxSpeed));
   // The first speed at which it has none.
   highest_ = rises(0.0) ? corners.back() : 0.0;
   for (std::size_t i = 1; i <= kLooks && highest_ == corners.back(); ++i) {
@@ -77,7 +77,7 @@ SpeedPlanner::SpeedPlanner(const ShaftLimits& limits, double max_jerk, Exclusion
       const double width = (corners[i + 1] - corners[i]) / static_cast<double>(parts);
       const double from = corners[i] + width * static_cast<double>(k);
       const double to = k + 1 == parts ? corners[i + 1] : from + width;
-      // Between corners both are straight, but for max_acceleration.
+      // Between breakpoints both are linear, except for max_acceleration.
       steps_.push_back({from, to, std::min(limits.rise(from), limits.rise(to)),
                         std::min(limits.fall(from), limits.fall(to))});
     }
@@ -86,7 +86,7 @@ SpeedPlanner::SpeedPlanner(const ShaftLimits& limits, double max_jerk, Exclusion
 
 SpeedPlan SpeedPlanner::staying(double speed) const {
   SpeedPlan plan;
-  plan.pieces.resize(BandedChange::kMostChanges * (kPiecesOfStep * (2 * steps_.size() + 1) + 1));
+  plan.pieces.resize(BandedChange::kMaxChanges * (kPiecesOfStep * (2 * steps_.size() + 1) + 1));
   plan.target = speed;
   return plan;
 }
@@ -140,12 +140,11 @@ void SpeedPlanner::change(double speed, double acceleration, double target,
     }
   };
   for (std::size_t i = steps_.size(); i-- > 0;) {
-    enter(i + 1 == steps_.size() ? -kLargestSpeed * 2.0 : -steps_[i].to, -steps_[i].from,
+    enter(i + 1 == steps_.size() ? -kMaxSpeed * 2.0 : -steps_[i].to, -steps_[i].from,
           steps_[i].fall);
   }
   for (std::size_t i = 0; i < steps_.size(); ++i) {
-    enter(steps_[i].from, i + 1 == steps_.size() ? kLargestSpeed * 2.0 : steps_[i].to,
-          steps_[i].rise);
+    enter(steps_[i].from, i + 1 == steps_.size() ? kMaxSpeed * 2.0 : steps_[i].to, steps_[i].rise);
   }
   const auto energy = [](double rate) { return 0.5 * rate * rate; };
   // Backward from the goal, then forward from where it is: E at the ends of the steps.

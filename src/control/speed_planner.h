@@ -1,13 +1,13 @@
 // Set-points of speed that a motor can follow: the fastest changes within a limit of jerk J and
-// limits of acceleration that hang on the speed, one for rising and one for falling speed.
+// speed-dependent limits of acceleration, one for rising and one for falling speed.
 //
 // With E = a^2 / 2 over the speed w, dE/dw = da/dt is the jerk. So the fastest change is the
-// highest E(w) that is nowhere steeper than J and nowhere above A(w)^2 / 2, from a0^2 / 2 where it
-// is to 0 at the speed wanted. (A start that is beyond comes down at full jerk.) A(w) is a step
-// function here, so that E is straight piece by piece: pieces of constant jerk.
+// highest E(w) that is nowhere steeper than J and nowhere above A(w)^2 / 2, from a0^2 / 2 at the
+// present speed to 0 at the target speed. (A start beyond a limit comes down at full jerk.) A(w) is
+// a step function here, so that E is piecewise linear: pieces of constant jerk.
 //
-// Bands of speeds to avoid are crossed at the largest acceleration that A and J allow there, with
-// the run-up that the largest A of all asks for (exclusion_bands.h).
+// Barred speed ranges are crossed at the largest acceleration that A and J allow there, with the
+// run-up that the overall maximum of A requires (exclusion_bands.h).
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace whirl_twin {
 
-/// What a motor can do with a shaft.
+/// Acceleration limits of a shaft on a motor.
 struct ShaftLimits {
   Motor motor;                    ///< the most it gives at a speed, either way, and its drag
   double inertia = 0.0;           ///< [kg m^2], that it accelerates
@@ -34,9 +34,9 @@ struct ShaftLimits {
   double fall(double speed) const noexcept;
 };
 
-/// Pieces of constant jerk that follow one another, to a speed that stays.
+/// Consecutive pieces of constant jerk, ending at a constant speed.
 struct SpeedPlan {
-  std::vector<SpeedSegment> pieces;  ///< room for as many as there may be
+  std::vector<SpeedSegment> pieces;  ///< capacity for the maximum number
   std::size_t count = 0;
   double target = 0.0;    ///< [rad/s]
   double duration = 0.0;  ///< [s]
@@ -50,7 +50,7 @@ class SpeedPlanner {
   /// largest acceleration left.
   SpeedPlanner(const ShaftLimits& limits, double max_jerk, ExclusionBands avoid);
 
-  /// A plan with room for all pieces, to stay at a speed [rad/s].
+  /// A plan with capacity for all pieces that stays at a speed [rad/s].
   SpeedPlan staying(double speed) const;
 
   // Real-time safe: no allocation, no lock, no exception.
@@ -81,8 +81,9 @@ class SpeedPlanner {
   double highest_ = 0.0;
 };
 
-/// Speed and acceleration a time [s] after the start of a plan; `cursor`, a place in it not beyond
-/// that time, goes on to it, and `begun` is when that piece began. Real-time safe.
+/// Speed and acceleration a time [s] after the start of a plan; `cursor`, a position in the plan
+/// not beyond that time, is advanced to it, and `begun` is the start time of that piece. Real-time
+/// safe.
 struct PlanCursor {
   std::size_t piece = 0;
   double begun = 0.0;  ///< [s]

@@ -13,8 +13,8 @@ void appendSegment(SpeedChange& change, const SpeedSegment& segment) {
   }
 }
 
-/// target - stoppingSpeed(), as if it were rounded once: of two speeds far from 0 and near to each
-/// other little is left, and the time that the rest takes is to be right all the same.
+/// target - stoppingSpeed(), as if rounded once: avoids cancellation for two large speeds near to
+/// each other, so that the time for the remaining change is accurate.
 double missingSpeed(double speed, double acceleration, double max_jerk, double target) noexcept {
   const double difference = target - speed;
   if (max_jerk == 0.0) {
@@ -34,7 +34,7 @@ double missingSpeed(double speed, double acceleration, double max_jerk, double t
 
 std::optional<MoveFault> faultOf(const SpeedMove& move) noexcept {
   // Each test is written so that NaN fails it.
-  if (!(std::abs(move.speed) <= kLargestSpeed)) {
+  if (!(std::abs(move.speed) <= kMaxSpeed)) {
     return MoveFault{"speed must be within +-1e6 rad/s", move.speed};
   }
   if (!(move.max_acceleration > 0.0 && std::isfinite(move.max_acceleration))) {
@@ -45,7 +45,7 @@ std::optional<MoveFault> faultOf(const SpeedMove& move) noexcept {
     return MoveFault{"max_jerk must be positive and finite, in rad/s^3, or 0 for no limit",
                      move.max_jerk};
   }
-  if (!(move.dwell >= 0.0 && move.dwell <= kLongestDuration)) {
+  if (!(move.dwell >= 0.0 && move.dwell <= kMaxDuration)) {
     return MoveFault{"dwell must be from 0 to 1e9 s", move.dwell};
   }
   return std::nullopt;

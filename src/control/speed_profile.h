@@ -19,11 +19,11 @@
 
 namespace whirl_twin {
 
-/// Largest shaft speed accepted [rad/s]; with kLongestDuration it keeps angles below 1e15 rad.
-constexpr double kLargestSpeed = 1.0e6;
+/// Largest shaft speed accepted [rad/s]; with kMaxDuration it keeps angles below 1e15 rad.
+constexpr double kMaxSpeed = 1.0e6;
 
 /// Longest move, dwell or profile accepted [s], 31 years.
-constexpr double kLongestDuration = 1.0e9;
+constexpr double kMaxDuration = 1.0e9;
 
 /// One move of a speed profile: a change of speed, then a dwell.
 struct SpeedMove {
@@ -45,14 +45,14 @@ struct SpeedSegment {
 
 /// A planned change of speed: at most three pieces, none of them empty.
 struct SpeedChange {
-  static constexpr std::size_t kMostPieces = 3;
+  static constexpr std::size_t kMaxPieces = 3;
 
-  std::array<SpeedSegment, kMostPieces> segments;
+  std::array<SpeedSegment, kMaxPieces> segments;
   std::size_t count = 0;
   double duration = 0.0;  ///< [s]
 };
 
-/// What is wrong with a move.
+/// An error of a move.
 struct MoveFault {
   const char* expected;  ///< the field, what it must be, its unit
   double found;
@@ -66,7 +66,7 @@ std::optional<MoveFault> faultOf(const SpeedMove& move) noexcept;
 double stoppingSpeed(double speed, double acceleration, double max_jerk) noexcept;
 
 /// The fastest change from a speed [rad/s] and acceleration [rad/s^2] to the move's speed within
-/// its limits. Without a jerk limit the acceleration jumps. The move must be sound (faultOf).
+/// its limits. Without a jerk limit the acceleration jumps. The move must be valid (faultOf).
 /// Real-time safe.
 SpeedChange planSpeedChange(double speed, double acceleration, const SpeedMove& move) noexcept;
 

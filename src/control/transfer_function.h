@@ -31,7 +31,7 @@ DiscreteStateSpace discreteTransferFunction(const Eigen::VectorXd& numerator,
 DiscreteStateSpace discreteLead(double gain, double zero, double pole, double period,
                                 double prewarp);
 
-/// The same law, of one signal, on each of so many axes.
+/// The same control law, of one signal, on each of a number of axes.
 DiscreteStateSpace onEachAxis(const DiscreteStateSpace& law, Eigen::Index axes);
 
 }  // namespace whirl_twin

@@ -1,6 +1,6 @@
-// What keeps an integral from growing while its output is at a limit: the output and what is left
-// of it after the cut work back on the integral in a tracking time (back-calculation), or the
-// integral waits while it drives the output further beyond (clamping).
+// Anti-windup of an integrator while its output is saturated: the saturation residual feeds back to
+// the integral with a tracking time (back-calculation), or the integral is frozen while it drives
+// the output further into saturation (clamping).
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@ struct AntiWindup {
   enum class Way { kBackCalculation, kClamping, kNone };
   Way way = Way::kBackCalculation;
   double tracking_time = 0.0;  ///< [s]; 0: kp / ki
-  double period = 0.0;         ///< [s], of the samples; no tracking time is less
+  double period = 0.0;         ///< [s], sampling period; lower limit of the tracking time
 
-  /// What to integrate of an error e: ki e, less what the cut of an output u asks for. Real-time
-  /// safe.
+  /// Integrand for an error e: ki e, less the back-calculation term of the saturation residual of
+  /// an output u. Real-time safe.
   double integrand(double kp, double ki, double e, double u, double cut) const noexcept {
     if (ki == 0.0) {
       return 0.0;

@@ -6,14 +6,14 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kProgress = 0.02;  // of the rise that was planned
+constexpr double kProgress = 0.02;  // fraction of the planned rise
 constexpr double kAtLimit = 0.9;    // of a window's samples
-constexpr double kTurns = 20.0;     // of the shaft in a window, at least
+constexpr double kTurns = 20.0;     // minimum number of shaft revolutions in a window
 constexpr double kFewest = 10.0;    // samples of a window
 
 }  // namespace
 
-/// Samples: as long as a band is crossed in, and some turns.
+/// Window in samples: the time to cross a band, and at least some revolutions.
 std::int64_t CaptureSupervisor::windowOf(const SpeedBand& band) const noexcept {
   const double time =
       std::max((band.to - band.from) / rules_.acceleration, kTurns * kTwoPi / band.from);

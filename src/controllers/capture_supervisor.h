@@ -1,15 +1,16 @@
-// Watches over a shaft that its motor brings up through bands of resonance, and frees it where one
-// holds it: near a critical speed all that a motor of limited torque gives may go into the whirl
-// (Sommerfeld 1902).
+// Detects and resolves resonance capture of a shaft that its motor brings up through barred speed
+// ranges: near a critical speed all the torque of a limited motor may go into the whirl (Sommerfeld
+// 1902).
 //
-// Captured is a shaft whose motor gave all it has in two windows of time, one after the other, in
-// or just below a band that it is on its way through, while its mean speed rose by less than a
-// fiftieth of what was planned. It is then unloaded: its motor only brakes, until it is below the
-// band; it returns to where the run-up for the highest acceleration begins, waits there for a
-// window, until its whirl has died down, and tries again. After so many tries it stays there.
+// A shaft is captured if its motor was at its torque limit in two consecutive windows of time, in
+// or just below a range that it is passing through, while its mean speed rose by less than a
+// fiftieth of the planned rise. It is then unloaded: its motor only brakes, until it is below the
+// range; it returns to the start of the run-up with the highest acceleration, waits there for a
+// window, until its whirl has decayed, and tries again. After the maximum number of tries it stays
+// there.
 //
-// So it never sits: no stay at the limit of torque is longer than two windows, but for one that
-// goes on by a fiftieth of the plan.
+// Hence no stay at the torque limit is longer than two windows, except one that advances by a
+// fiftieth of the plan.
 #pragma once
 
 #include <algorithm>
@@ -26,21 +27,21 @@ namespace whirl_twin {
 
 class CaptureSupervisor {
  public:
-  /// What the law is to do from this sample on.
+  /// Command to the speed controller from this sample on.
   enum class Order {
     kNone,    ///< as before
     kUnload,  ///< let the speed fall to runUpOf(band()), with no torque upwards
-    kReturn,  ///< bring it there, with any torque
-    kRetry    ///< go on to the target, in the fastest way
+    kReturn,  ///< bring it there, with torque in both directions
+    kRetry    ///< continue to the target, as fast as possible
   };
   struct Rules {
-    std::vector<SpeedBand> bands;  ///< ascending, above 0, further apart than the run-up
+    std::vector<SpeedBand> bands;  ///< ascending, above 0, separated by more than the run-up
     double run_up = 0.0;           ///< [rad/s], of the highest acceleration
     double acceleration = 0.0;     ///< [rad/s^2], the highest
     double tries = 0.0;
     double period = 0.0;  ///< [s], of the samples
   };
-  /// A sample, with the signs that make the way to the target one of rising speed.
+  /// A sample, with signs such that the speed rises towards the target.
   struct Look {
     double speed;         ///< [rad/s]
     double target;        ///< [rad/s]
@@ -51,8 +52,8 @@ class CaptureSupervisor {
 
   explicit CaptureSupervisor(Rules rules) : rules_(std::move(rules)) {}
 
-  /// The speed [rad/s] below a band from which it is crossed, and below which a shaft stays that
-  /// does not cross it.
+  /// The speed [rad/s] below a band at which the crossing starts, and below which a shaft stays
+  /// that does not cross it.
   double runUpOf(const SpeedBand& band) const noexcept {
     return std::max(0.0, band.from - rules_.run_up);
   }
@@ -60,7 +61,7 @@ class CaptureSupervisor {
 
   // Real-time safe.
 
-  /// Forgets the past. refused: it will not try.
+  /// Clears the state. refused: no attempt is made.
   void reset(bool refused) noexcept {
     phase_ = refused ? Phase::kStaying : Phase::kGoing;
     state_ = refused ? state::Supervision::kRefused : state::Supervision::kNone;
@@ -74,7 +75,7 @@ class CaptureSupervisor {
     image.requireWithin(state_, state::Supervision::kNone, state::Supervision::kRefused);
   }
   bool unloads() const noexcept { return phase_ == Phase::kUnloading; }
-  /// Of the band that held it last.
+  /// The band of the last capture.
   const SpeedBand& band() const noexcept { return band_; }
   state::Supervision state() const noexcept { return state_; }
 
@@ -84,7 +85,7 @@ class CaptureSupervisor {
     std::int64_t samples = 0;
     std::int64_t at_limit = 0;
     double sum = 0.0;          // of speeds [rad/s]
-    double before = 0.0;       // mean speed of the window before [rad/s]
+    double before = 0.0;       // mean speed of the previous window [rad/s]
     bool before_held = false;  // it was at its limit
   };
   Order watch(const Look& at) noexcept;
@@ -94,7 +95,7 @@ class CaptureSupervisor {
   Phase phase_ = Phase::kGoing;
   state::Supervision state_ = state::Supervision::kNone;
   SpeedBand band_;
-  double captures_ = 0.0;  // by band_, one after the other
+  double captures_ = 0.0;  // consecutive captures by band_
   std::int64_t rested_ = 0;
   Window window_;
 };

@@ -1,5 +1,5 @@
-// A controller as machines have them: at instants of its own it is shown what is measured, and
-// gives outputs. What is around it, sensors, delay and actuators, is not its own.
+// A sampled controller: at its own sampling instants it receives measured values and computes
+// outputs. Sensors, delay and actuators are outside it.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace whirl_twin {
 
-/// What a controller is shown at one of its instants.
+/// Input of a controller at a sampling instant.
 struct ControlSample {
   const double* values;    ///< as many as it measures, in their units
   std::int64_t index;      ///< of the sample: k at k / rate after simulated time 0
   std::int64_t time;       ///< [ns], simulated
-  ShaftAngle shaft_angle;  ///< of the shaft it goes by; 0 without
+  ShaftAngle shaft_angle;  ///< of its reference shaft; 0 without one
   double shaft_speed;      ///< [rad/s]
 };
 
@@ -32,29 +32,31 @@ class Controller {
   virtual void reset() noexcept = 0;
   /// Writes as many outputs as it has, in their units.
   virtual void update(const ControlSample& sample, double* outputs) noexcept = 0;
-  /// Goes on, with its own parameters, from where another of the same kind and plan is: its outputs
-  /// do not jump where there is a way. One that has nothing to take over begins anew.
+  /// Bumpless transfer: continues, with its own parameters, from the state of another of the same
+  /// kind and plan; its outputs do not jump where this is possible. One without a state to take
+  /// over restarts.
   virtual void takeOver(const Controller& /*before*/) noexcept {}
-  /// The law behind what is put before it, as a notch is; itself, where there is nothing.
+  /// The controller behind a filter such as a notch; itself, where there is no filter.
   virtual const Controller& law() const noexcept { return *this; }
-  /// Of one that brings a shaft through resonances.
+  /// State of a controller that brings a shaft through resonances.
   virtual state::Supervision supervision() const noexcept { return state::Supervision::kNone; }
 
   // Not real-time safe.
 
-  /// How small changes of what it measures come out, without limits and at a shaft speed [rad/s];
-  /// nothing where that is not linear.
+  /// Linearization from measurement to output, without limits and at a shaft speed [rad/s]; empty
+  /// where the controller has none.
   virtual std::optional<DiscreteStateSpace> linear(double shaft_speed) const = 0;
-  /// At this shaft speed [rad/s], while it changes by an acceleration [rad/s^2], what is put before
-  /// law() goes on as it is and does not follow what is measured: small changes are those of law().
+  /// At this shaft speed [rad/s], while it changes by an acceleration [rad/s^2], the filter in
+  /// front of law(), such as a notch, is frozen and does not adapt to the measurement: the
+  /// linearization is that of law().
   virtual bool holds(double /*shaft_speed*/, double /*acceleration*/) const { return false; }
-  /// From where linear() counts what is measured: there, and with no past, its outputs are 0.
-  /// Empty: from 0.
+  /// Operating point of linear(): at this measurement, with zero state, its outputs are 0. Empty:
+  /// 0.
   virtual std::vector<double> setpoint() const { return {}; }
 
   // Real-time safe again.
 
-  /// All that its next outputs hang on, but what it was made of.
+  /// All state that determines its next outputs, except its construction parameters.
   virtual void exchange(StateImage& image) noexcept = 0;
 };
 

@@ -1,4 +1,4 @@
-// Makes a ControllerInfo of a law that is a struct:
+// Makes a ControllerInfo of a control law that is a struct:
 //
 //   struct MyLaw {
 //     static constexpr const char* kName = "my_law";
@@ -14,10 +14,10 @@
 //     std::vector<double> setpoint() const;                            // optional
 //   };
 //
-// prepare() is called once, with its parameters set and before all else: it makes room, and throws
+// prepare() is called once, with its parameters set and before all else: it allocates, and throws
 // SetupError for what does not fit. reset(), update(), takeOver() and exchange() are real-time safe
-// (controllers/controller.h). A law that owns memory, a vector say, and has no exchange()
-// (realtime/state_image.h) keeps its twin from being saved.
+// (controllers/controller.h). A law that owns memory (a vector), and has no exchange()
+// (realtime/state_image.h) prevents checkpoints of its twin.
 #pragma once
 
 #include <memory>
@@ -52,7 +52,7 @@ struct HasSetpoint : std::false_type {};
 template <class Law>
 struct HasSetpoint<Law, std::void_t<decltype(&Law::setpoint)>> : std::true_type {};
 
-/// A law that is a struct, as a controller.
+/// Adapts a control law that is a struct to the Controller interface.
 template <class Law>
 class LawController final : public Controller {
   static_assert(

@@ -1,4 +1,4 @@
-// A controller as scenes see it: its name and parameters, and how to make one.
+// Description of a type of controller for scenes: its name and parameters, and its factory.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,26 +15,26 @@
 
 namespace whirl_twin {
 
-/// x' = a x + b u, y = c x: what a controller acts on and measures, for small motions about where
-/// it starts. States are the coordinates, then their rates, of each system in turn.
+/// x' = a x + b u, y = c x: the linearized plant of a controller about its initial state. States
+/// are the coordinates, then their rates, of each system in turn.
 struct LinearPlant {
   Eigen::MatrixXd a;  ///< [n x n]
   Eigen::MatrixXd b;  ///< [n x outputs of the controller]
   Eigen::MatrixXd c;  ///< [measured by the controller x n]
 };
 
-/// What is around a controller.
+/// The surroundings of a controller.
 struct ControllerPlan {
   double rate = 0.0;  ///< [Hz]
   std::size_t measured = 0;
   std::size_t outputs = 0;
-  /// Of each output, in its unit: it is kept within +- this. Infinite: no limit.
+  /// Of each output, in its unit: saturation at +- this. Infinite: no limit.
   std::vector<double> limits;
-  /// Of small motions; nothing where there is no telling.
+  /// Linearized; empty where there is none.
   std::optional<LinearPlant> plant = std::nullopt;
-  /// About the critical speeds of what a shaft turns, where a speed controller is to avoid them.
+  /// About the critical speeds of the rotors on a shaft, where a speed controller is to avoid them.
   std::vector<SpeedBand> critical_bands = {};
-  /// The first band that its motor is known not to bring a shaft through.
+  /// The first band known to exceed the motor's capability.
   std::optional<SpeedBand> impassable = std::nullopt;
 };
 
@@ -44,8 +44,8 @@ struct ControllerInfo {
   std::vector<ParameterInfo> parameters;
   std::vector<SettingInfo> settings;
 
-  /// With these parameters (all of `parameters`) and settings. Throws SetupError, a name of either
-  /// with what is wrong.
+  /// With these parameters (all of `parameters`) and settings. Throws SetupError with the name of
+  /// the one in error.
   std::function<std::unique_ptr<Controller>(const ParameterValues&, const Settings&,
                                             const ControllerPlan&)>
       make;

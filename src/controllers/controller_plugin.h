@@ -1,4 +1,4 @@
-// A controller of another package: what a plugin hands over to be named in scenes like a built-in
+// Plugin interface for a controller of another package, which scenes then name like a built-in
 // one.
 //
 //   class PositionFeedbackPlugin : public whirl_twin::ControllerPlugin {

@@ -1,4 +1,4 @@
-// What controllers read of their settings, and refuse at the setting it is about.
+// Reading of the settings of controllers, with errors reported at the setting concerned.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,10 +15,11 @@ const Eigen::MatrixXd* givenMatrix(const Settings& settings, const std::string& 
 void requireSize(const std::string& name, const Eigen::MatrixXd& matrix, Eigen::Index rows,
                  Eigen::Index columns, const std::string& why);
 
-/// Throws SetupError, at a parameter or setting, unless as many are measured as acted on.
+/// Throws SetupError, at a parameter or setting, unless the numbers of measurements and outputs
+/// agree.
 void requireAxes(const ControllerPlan& plan, const std::string& name);
 
-/// `setpoint`: a row of one number for each of what is measured.
+/// `setpoint`: a row of one number for each measured quantity.
 SettingInfo setpointSetting();
 /// 0 for each where it is not given. Throws SetupError for another size.
 Eigen::VectorXd setpointOf(const Settings& settings, const ControllerPlan& plan);

@@ -1,4 +1,4 @@
-// One function a controller, each in a translation unit of its own.
+// One function per controller, each in a separate translation unit.
 #pragma once
 
 #include "controllers/controller_info.h"

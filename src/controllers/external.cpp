@@ -10,7 +10,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kCapacity = 1024;  // samples, or commands, that wait
+constexpr std::size_t kCapacity = 1024;  // maximum number of waiting samples, or commands
 
 }  // namespace
 
@@ -80,7 +80,7 @@ void ExternalController::keep(std::size_t samples) {
   answered_.assign(samples, kNone);
 }
 
-/// The other process stays where it is: in lockstep the first sample waits for it already.
+/// The other process is not reset: in lockstep already the first sample waits for it.
 void ExternalController::reset() noexcept {
   ++run_;
   told_ = heard_ = kNone;
@@ -100,7 +100,7 @@ void ExternalController::exchange(StateImage& image) noexcept {
   }
 }
 
-/// False for what is no answer to a sample of this run.
+/// False for a command that answers no sample of this run.
 bool ExternalController::take(const ExternalSample& command) noexcept {
   if ((command.run != 0 && command.run != run_) || command.sample > told_) {
     return false;
@@ -130,7 +130,7 @@ void ExternalController::giveNewest(std::int64_t time, double* outputs) noexcept
       heard_at_ = time;
     }
   }
-  // Nothing is missed of what has never been there.
+  // No time-out before the first connection.
   if (connected_ && heard_ == kNone && time < heard_at_) {
     heard_at_ = time;  // after a reset
   }
@@ -146,11 +146,11 @@ void ExternalController::giveNewest(std::int64_t time, double* outputs) noexcept
 
 void ExternalController::listen() noexcept {
   while (link_->hear(command_)) {
-    const bool anew = !connected_;
+    const bool restarted = !connected_;
     if (!take(command_)) {
       continue;
     }
-    if (anew) {
+    if (restarted) {
       awaited_from_ = command_.sample;
     }
     const std::size_t place = placeOf(command_.sample);

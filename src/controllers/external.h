@@ -1,8 +1,9 @@
-// A controller in another process: samples go out, commands come in, each the answer to a sample.
+// A controller in another process: samples are sent, commands are received, each the answer to a
+// sample.
 //
-// Free-running, what acts is the newest command that has come. In lockstep the output of a sample
-// is its answer, and simulated time waits for it: not before the first answer of all, and not after
-// none has come for `timeout` of wall time, until one comes again.
+// Free-running, the newest command received is applied. In lockstep the output of a sample is its
+// answer, and simulated time waits for it: except before the very first answer, and after a
+// `timeout` of wall time without one, until the next arrives.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +19,12 @@
 
 namespace whirl_twin {
 
-// Between the real-time loop and the thread that talks to a controller in another process: samples
-// out, commands in, through rings without a lock.
+// Link between the real-time loop and the thread that communicates with a controller in another
+// process: samples out, commands in, through lock-free rings.
 
-/// A sample as it goes out, or the command that answers it.
+/// A sample that is sent, or the command that answers it.
 struct ExternalSample {
-  std::int64_t run = 0;     ///< which run of simulated time: another after each reset
+  std::int64_t run = 0;     ///< number of the run of simulated time: changes at each reset
   std::int64_t sample = 0;  ///< its index
   double time = 0.0;        ///< [s], simulated, of the sample
   std::vector<double> values;
@@ -38,16 +39,16 @@ class ExternalLink {
 
   // The loop; real-time safe. `values` of the sample in and out is never resized.
 
-  /// What finds no room is lost.
+  /// Samples that do not fit into the queue are lost.
   void tell(std::int64_t run, std::int64_t sample, double time, const double* values) noexcept;
-  /// The oldest command that waits, into one with as many values as outputs(); false: none.
+  /// The oldest pending command, into one with as many values as outputs(); false: none.
   bool hear(ExternalSample& command) noexcept;
 
   // One other thread.
 
-  /// The oldest sample that waits; false: none.
+  /// The oldest pending sample; false: none.
   bool take(ExternalSample& sample);
-  /// Hands a command over. False for one of another length, or where the loop is far behind.
+  /// Passes a command to the loop. False for one of wrong length, or if the queue is full.
   bool answer(const ExternalSample& command);
 
  private:
@@ -61,8 +62,7 @@ class ExternalLink {
 
 class ExternalController final : public Controller {
  public:
-  /// What becomes of it after the time-out: it gives what it gave last, or 0, or what it acts on
-  /// stops.
+  /// Fallback after the time-out: hold the last output, output 0, or stop the systems acted on.
   enum class OnTimeout { kHold, kZero, kStop };
   struct Rules {
     bool lockstep = false;
@@ -74,24 +74,24 @@ class ExternalController final : public Controller {
   ExternalController(const Rules& rules, std::size_t measured, std::size_t outputs);
 
   const Rules& rules() const { return rules_; }
-  /// For the thread that talks to the other process; lives as long as the controller.
+  /// For the thread that communicates with the other process; lives as long as the controller.
   ExternalLink& link() const { return *link_; }
-  /// Answers to so many samples are kept.
+  /// Number of answers that are stored.
   void keep(std::size_t samples);
 
   // Real-time safe.
 
   void reset() noexcept override;
-  /// Put back, it is yet to hear of the other process, in a run of its own.
+  /// After restoration it waits for the other process, in a new run.
   void exchange(StateImage& image) noexcept override;
-  /// Tells the sample. Free-running it gives the newest command; in lockstep nothing.
+  /// Sends the sample. Free-running it outputs the newest command; in lockstep nothing.
   void update(const ControlSample& sample, double* outputs) noexcept override;
-  /// No answer within the time-out, and none since.
+  /// The time-out has expired without an answer since.
   bool lost() const noexcept { return lost_; }
-  /// It is, and gives 0 then, or stops what it acts on.
+  /// Lost, with output 0.
   bool givesNothing() const noexcept { return lost_ && rules_.on_timeout == OnTimeout::kZero; }
   bool stops() const noexcept { return lost_ && rules_.on_timeout == OnTimeout::kStop; }
-  /// [samples], of the newest command at the newest sample; kNoAge: none has come.
+  /// [samples], of the newest command relative to the newest sample; kNoAge: none received.
   std::int64_t age() const noexcept { return heard_ == kNone ? kNoAge : told_ - heard_; }
 
   /// age() [samples] at each sample since the start, from the first command on. Any thread.
@@ -99,14 +99,14 @@ class ExternalController final : public Controller {
 
   // Of lockstep.
 
-  /// Takes the answers that have come.
+  /// Processes the answers received.
   void listen() noexcept;
   /// nullptr: there is none.
   const double* answer(std::int64_t sample) const noexcept;
-  /// Simulated time is to wait for the answer to a sample.
+  /// Must simulated time wait for the answer to a sample?
   bool isAwaited(std::int64_t sample) const noexcept;
-  /// There is something to wait for, and `elapsed` [ns] have gone since this was said last. True
-  /// once it has lasted too long: the controller is lost.
+  /// An answer is outstanding, and `elapsed` [ns] have passed since the previous call. True once
+  /// the time-out is exceeded: the controller is lost.
   bool waitsTooLong(std::int64_t elapsed) noexcept;
   void waitsNoMore() noexcept { waiting_ = false; }
 
@@ -126,15 +126,15 @@ class ExternalController final : public Controller {
 
   Rules rules_;
   std::unique_ptr<ExternalLink> link_;
-  ExternalSample command_;       // room for one
+  ExternalSample command_;       // preallocated
   std::vector<double> newest_;   // free-running: what acts
   std::vector<double> answers_;  // lockstep
   std::vector<std::int64_t> answered_;
   std::int64_t run_ = 0;
   std::int64_t told_ = 0;              // newest sample
   std::int64_t heard_ = kNone;         // newest sample that was answered in this run
-  std::int64_t awaited_from_ = kNone;  // lockstep: the first to wait for; kNone: not at present
-  bool connected_ = false;             // something has come since it was lost, or the start
+  std::int64_t awaited_from_ = kNone;  // lockstep: the first awaited sample; kNone: none at present
+  bool connected_ = false;             // a command was received since the loss, or the start
   bool lost_ = false;
   bool waiting_ = false;
   TimingHistogram ages_;

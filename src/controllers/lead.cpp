@@ -1,8 +1,8 @@
-// A lead or lag for each pair of what is measured and acted on,
+// A lead or lag compensator for each pair of measured quantity and output,
 //
 //   u = -gain (1 + s / zero) / (1 + s / pole) (y - setpoint),
 //
-// in samples by Tustin's rule, which keeps the imaginary axis on the unit circle. It leads where
+// discretized by Tustin's rule, which keeps the imaginary axis on the unit circle. It leads where
 // the zero is below the pole, most at sqrt(zero pole).
 #include <fmt/format.h>
 

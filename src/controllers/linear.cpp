@@ -1,9 +1,9 @@
-// Any linear law in samples, y what is measured less its set-point: by matrices,
+// Any linear discrete-time controller, y the measurement minus its set-point: by matrices,
 //
 //   x(k + 1) = a x(k) + b y(k),   u(k) = c x(k) + d y(k),   x(0) = 0,
 //
-// or axis by axis by a transfer function in z, u = (numerator / denominator) y. No sign is turned:
-// a law that holds back what it measures has negative gains.
+// or axis by axis by a transfer function in z, u = (numerator / denominator) y. No sign is
+// inverted: negative feedback needs negative gains.
 #include <fmt/format.h>
 
 #include "control/transfer_function.h"

@@ -1,10 +1,10 @@
-// A linear-quadratic-Gaussian regulator: an lqr of states that a Kalman filter estimates, x~ before
-// the sample y and x^ after it,
+// A linear-quadratic-Gaussian regulator: an lqr on the states estimated by a Kalman filter, x~
+// before the sample y and x^ after it,
 //
 //   x^ = x~(k) + M (y(k) - setpoint - c x~(k)),   u(k) = -K x^,   x~(k + 1) = A x^ + B cut(u(k)),
 //
-// x~(0) = 0, with the gains of ever (K of `lqr`, M of the noise that is given). The filter knows of
-// the limits, cut(), so that it does not wind up; it knows of no delay.
+// x~(0) = 0, with the steady-state gains (K of `lqr`, M for the given noise). The filter includes
+// the limits, cut(), which prevents windup; it includes no delay.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 struct LqgGains {
-  MatrixXd a, b, c;    ///< of the plant, from sample to sample
+  MatrixXd a, b, c;    ///< of the discretized plant
   MatrixXd feedback;   ///< K
   MatrixXd estimator;  ///< M
 };
@@ -76,11 +76,11 @@ class Lqg final : public Controller {
   VectorXd setpoint_;
   VectorXd limits_;
   VectorXd predicted_;
-  // Of update(), kept to save the room.
+  // Work space of update(), preallocated.
   VectorXd estimate_, surprise_, cut_;
 };
 
-/// Gathered in a period [s] from a density of noise that drives the states.
+/// Covariance accumulated in a period [s] from the density of the process noise.
 MatrixXd gathered(const MatrixXd& a, const MatrixXd& density, double period) {
   const MatrixXd none = MatrixXd::Zero(a.rows(), 1);
   return sampledPlant(a.transpose(), none, {density, MatrixXd::Identity(1, 1)}, period).cost.state;

@@ -1,11 +1,11 @@
-// A linear-quadratic regulator: the state feedback u = -K (x - setpoint) of least
+// A linear-quadratic regulator: the state feedback u = -K (x - setpoint) that minimizes
 //
 //   integral of  x' q x + u' r u
 //
-// for the plant's small motions about where it starts. `cost: sampled` counts it exactly for
-// outputs that are held from sample to sample; `continuous` gives the gain of outputs that follow
-// at once, which is near it only where samples are dense. Neither knows of a delay: the gain is
-// that of outputs that act at their sample's instant.
+// for the plant linearized about its initial state. `cost: sampled` evaluates the integral exactly
+// for zero-order-held outputs; `continuous` gives the gain of the continuous-time regulator, which
+// is close to it only for short sampling periods. Neither includes a delay: the gain is that of
+// outputs that act at their sampling instant.
 #include <fmt/format.h>
 
 #include "algebra/dense.h"

@@ -25,7 +25,7 @@ struct Notch {
   double hold;       ///< [-]
   bool pairs;        ///< of probes
 
-  /// e^(j phase); that of a shaft that turns backward is its mirror image.
+  /// e^(j phase); for a shaft in backward rotation its complex conjugate.
   Complex turn(double speed) const noexcept {
     return std::polar(1.0, std::copysign(1.0, speed) * phase.at(speed, 0));
   }
@@ -62,7 +62,7 @@ class NotchedController final : public Controller {
   void update(const ControlSample& sample, double* outputs) noexcept override {
     const double speed = sample.shaft_speed;
     ControlSample shown = sample;
-    // Without a speed there is no angle: then nothing is taken off, and what was learnt is kept.
+    // Without a speed there is no angle: nothing is subtracted, and the coefficients are kept.
     if (std::isfinite(speed) && speed != 0.0) {
       takeOff(sample, steady(speed));
       shown.values = shown_.data();
@@ -105,7 +105,7 @@ class NotchedController final : public Controller {
     return std::abs(acceleration) <= notch_.hold * notch_.rate * std::abs(speed);
   }
 
-  /// Slow enough to learn: not so at the first sample with a speed, which may come from anywhere.
+  /// Slow enough to adapt: never at the first sample with a speed, which may have any value.
   bool steady(double speed) const noexcept {
     return learnsAt(speed, (speed - last_speed_) * rate_);
   }
@@ -129,7 +129,7 @@ class NotchedController final : public Controller {
     }
   }
 
-  /// From what is measured to what the controller is shown.
+  /// From the measurement to the controller's input.
   DiscreteStateSpace filterAt(double speed) const {
     const auto parts = static_cast<Index>(parts_.size());
     const Index width = notch_.pairs ? 2 : 1;

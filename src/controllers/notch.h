@@ -1,5 +1,5 @@
-// A synchronous notch before a controller: it takes off what is measured the part that turns with
-// the shaft, so that the controller does not answer to unbalance (R. Herzog, P. Buehler, C.
+// A synchronous notch in front of a controller: it subtracts the synchronous (1X) component from
+// the measurement, so that the controller does not respond to unbalance (R. Herzog, P. Buehler, C.
 // Gaehler, R. Larsonneur, IEEE Trans. Control Systems Technology 4 (1996) 580). At the shaft's
 // angle theta
 //
@@ -16,8 +16,8 @@
 
 namespace whirl_twin {
 
-/// The controller with a notch before it, of the parameters notch_rate (0: none), notch_phase and
-/// notch_hold and the settings notch_phases and notch_axes.
+/// The controller with a notch in front of it, with the parameters notch_rate (0: none),
+/// notch_phase and notch_hold and the settings notch_phases and notch_axes.
 ControllerInfo withNotch(ControllerInfo info);
 
 }  // namespace whirl_twin

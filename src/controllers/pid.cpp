@@ -1,20 +1,20 @@
-// A PID law for each pair of what is measured and what is acted on, axis by axis. With samples T
-// apart, y what is measured and e = setpoint - y,
+// A PID controller for each pair of measured quantity and output, axis by axis. With sampling
+// period T, measurement y and e = setpoint - y,
 //
 //   u(k)     = kp e(k) + I(k) + D(k)
 //   I(k + 1) = I(k) + T (ki e(k) + (cut(u(k)) - u(k)) / tracking_time),   I(0) = 0
 //   D(k)     = (derivative_time D(k - 1) - kd (y(k) - y(k - 1))) / (derivative_time + T),  D(0) = 0
 //
-// (K. J. Astrom, R. M. Murray, Feedback Systems, Princeton 2008, sec. 10.5.) The derivative is of
-// what is measured, so that a set-point gives no kick; nor does the first sample, which has none
-// before it. cut() is the limit of the actuator: u itself is given uncut, for the actuator to cut
-// and to count. Instead of that back-calculation, clamping stops the integral while it drives u
-// further beyond the limit.
+// (K. J. Astrom, R. M. Murray, Feedback Systems, Princeton 2008, sec. 10.5.) The derivative acts on
+// the measurement, so that a set-point step gives no derivative kick; nor does the first sample,
+// which has no predecessor. cut() is the limit of the actuator: the output is u itself, which the
+// actuator limits and counts. Instead of that back-calculation, clamping stops the integral while
+// it drives u further beyond the limit.
 //
-// Gains may be given over the speed of a shaft. The integral is kept in units of the output, so
-// that it has no jump where they change. Where gains are changed while it runs, I takes what kp and
-// kd give otherwise of the last sample, so that u has no jump; without an integral, which would
-// wear that off, I stays what it is.
+// Gains may be scheduled over the speed of a shaft. The integral is stored in units of the output,
+// so that it has no jump where they change. On a change of gains during the run, I absorbs the
+// change of the kp and kd terms at the last sample, so that u has no jump; without integral action,
+// which would let that offset decay, I is unchanged.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -59,7 +59,7 @@ class Pid final : public Controller {
   void exchange(StateImage& image) noexcept override { image(axes_, started_, speed_); }
 
   void update(const ControlSample& sample, double* outputs) noexcept override {
-    // Of a shaft whose keyphasor is lost the last speed holds.
+    // If the keyphasor of the shaft is lost the last speed is used.
     speed_ = std::isfinite(sample.shaft_speed) ? sample.shaft_speed : speed_;
     const Gains g = gainsAt(speed_);
     for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -99,7 +99,7 @@ class Pid final : public Controller {
     return std::vector<double>(axes_.size(), setpoint_);
   }
 
-  /// States, of each axis: I, then what is known of the next D before its sample.
+  /// States, of each axis: I, then the part of the next D known before its sample.
   std::optional<DiscreteStateSpace> linear(double shaft_speed) const override {
     const Gains g = gainsAt(shaft_speed);
     const Index integrals = gains_.zero(1) ? 0 : 1;

@@ -1,5 +1,4 @@
-// The settings that regulators of least cost share: weights, and over what time the cost is
-// counted.
+// Settings common to linear-quadratic regulators: weights, and the kind of cost integral.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,18 +12,18 @@ namespace whirl_twin {
 /// q, r and cost.
 std::vector<SettingInfo> regulatorSettings();
 
-/// The plant, without which no gain is found. Throws SetupError, at q.
+/// The plant, which is required for a gain. Throws SetupError, at q.
 const LinearPlant& plantOf(const ControllerPlan& plan);
 
-/// A symmetric matrix [n x n] of weights, given as such or by a row of its diagonal. Throws
+/// A symmetric matrix [n x n] of weights, given in full or as a row of its diagonal. Throws
 /// SetupError for another size, one that is not symmetric, or a diagonal number below 0.
 Eigen::MatrixXd weightOf(const Settings& settings, const std::string& name, Eigen::Index n,
                          const std::string& of);
 
-/// The gain of least cost on the states [outputs x n]. Throws SetupError.
+/// The optimal gain on the states [outputs x n]. Throws SetupError.
 Eigen::MatrixXd regulatorGain(const Settings& settings, const LinearPlant& plant, double rate);
 
-/// What `find` gives; what it refuses or fails with is a SetupError at this setting.
+/// The result of `find`; its errors become a SetupError at this setting.
 Eigen::MatrixXd foundFor(const std::string& setting, const std::function<Eigen::MatrixXd()>& find);
 
 }  // namespace whirl_twin

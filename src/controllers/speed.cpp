@@ -1,18 +1,18 @@
-// The speed of a shaft, by the torque of its motor: what it takes to follow a planned set-point
-// (speed_planner.h), and a PI law for what is left. With samples T apart, w the speed that is
-// measured, w* the set-point and e = w* - w,
+// Speed controller of a shaft, by the torque of its motor: feedforward along a planned set-point
+// (speed_planner.h), and a PI law for the residual error. With sampling period T, measured speed w,
+// set-point w* and e = w* - w,
 //
 //   u(k)     = J (w*(k + 1) - w*(k)) / T + d w*(k) + kp e(k) + I(k)
 //   I(k + 1) = I(k) + T (ki e(k) + (cut(u(k)) - u(k)) / tracking_time),   I(0) = 0
 //
-// cut() is what the motor can give at that speed, and the limit of the actuator; cut(u) is given.
-// The set-point starts at the speed of the first sample, at rest in its acceleration, and keeps to
-// what the motor can do less a reserve. Where no plan leads to the speed wanted, it stays there.
-// Where parameters are changed while it runs, it is planned anew from the speed and acceleration
-// that it has.
+// cut() limits to the motor torque available at that speed, and to the limit of the actuator; the
+// output is cut(u). The set-point starts at the speed of the first sample with zero acceleration,
+// and stays within the motor's capability less a reserve. Where no plan leads to the speed wanted,
+// it stays there. On a parameter change during the run, it is planned again from its current speed
+// and acceleration.
 //
-// A shaft that a resonance holds is freed and tries again (capture_supervisor.h), then without the
-// reserve; one whose motor is known not to bring it through a band stays below.
+// A shaft captured by a resonance is freed and tries again (capture_supervisor.h), then without the
+// reserve; one whose motor is known not to bring it through a range stays below.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,8 +25,8 @@
 #include "controllers/capture_supervisor.h"
 #include "controllers/controller_settings.h"
 #include "controllers/controllers.h"
-#include "controllers/speed_way.h"
-#include "messages/refusal.h"
+#include "controllers/speed_trajectory.h"
+#include "messages/input_error.h"
 #include "models/settings.h"
 
 namespace whirl_twin {
@@ -37,9 +37,9 @@ using Eigen::MatrixXd;
 
 /// Plans of set-points.
 struct SpeedPlanners {
-  SpeedPlanner first;    ///< to the speed wanted, past the bands
+  SpeedPlanner first;    ///< to the target speed, past the bands
   SpeedPlanner retreat;  ///< through anything
-  SpeedPlanner again;    ///< past the bands after a capture
+  SpeedPlanner again;    ///< through the bands after a capture
 };
 
 class SpeedControl final : public Controller {
@@ -78,7 +78,7 @@ class SpeedControl final : public Controller {
   void update(const ControlSample& sample, double* outputs) noexcept override {
     const double speed = sample.values[0];
     if (!std::isfinite(speed)) {
-      outputs[0] = speed;  // no number, and not taken for one
+      outputs[0] = speed;  // not finite, and handled as such
       return;
     }
     if (!started_) {
@@ -99,7 +99,8 @@ class SpeedControl final : public Controller {
     outputs[0] = cut;
   }
 
-  /// The set-point goes on from where it is, speed and acceleration; captures are counted anew.
+  /// The set-point continues from its current speed and acceleration; the count of captures
+  /// restarts.
   void takeOver(const Controller& before) noexcept override {
     const auto* const other = dynamic_cast<const SpeedControl*>(&before.law());
     if (other == nullptr || !other->started_) {
@@ -114,13 +115,13 @@ class SpeedControl final : public Controller {
 
   state::Supervision supervision() const noexcept override { return supervisor_.state(); }
 
-  /// Without an integral what is fed forward for the drag counts as set-point.
+  /// Without an integral the feedforward of the drag counts as set-point.
   std::vector<double> setpoint() const override {
     const bool counts = ki_ == 0.0 && kp_ > 0.0;
     return {wanted_ * (counts ? 1.0 + limits_.motor.drag / kp_ : 1.0)};
   }
 
-  /// Where the motor can give what is asked, about a set-point that stays.
+  /// Where the motor is not saturated, about a constant set-point.
   std::optional<DiscreteStateSpace> linear(double) const override {
     const Eigen::Index states = ki_ == 0.0 ? 0 : 1;
     return DiscreteStateSpace{MatrixXd::Ones(states, states),
@@ -133,7 +134,7 @@ class SpeedControl final : public Controller {
     double speed = 0.0, acceleration = 0.0;  // [rad/s], [rad/s^2]
   };
 
-  /// [s], of a sample, since the set-points begin.
+  /// [s], of a sample, since the start of the set-points.
   double planTime(std::int64_t index) const noexcept {
     return period_ * static_cast<double>(index - first_);
   }
@@ -170,7 +171,7 @@ class SpeedControl final : public Controller {
     }
   }
 
-  /// A new plan, from the set-point of this sample on; one that stays, where there is none.
+  /// A new plan, from the set-point of this sample on; a constant one, where there is none.
   void follow(const SpeedPlanner& planner, const SetPoint& from, double to,
               std::int64_t index) noexcept {
     first_ = index;
@@ -195,8 +196,8 @@ class SpeedControl final : public Controller {
   SpeedPlan set_points_;
   PlanCursor cursor_;
   bool started_ = false;
-  bool at_limit_ = false;   // of its torque, in the direction up_, at the sample before
-  double up_ = 1.0;         // sign of the speed wanted
+  bool at_limit_ = false;   // of its torque, in the direction up_, at the previous sample
+  double up_ = 1.0;         // sign of the target speed
   double target_ = 0.0;     // [rad/s], to where it goes
   std::int64_t first_ = 0;  // sample
   std::int64_t last_ = 0;   // likewise
@@ -206,9 +207,9 @@ class SpeedControl final : public Controller {
 
 Motor motorOf(const Settings& settings, double drag) {
   const std::vector<TableRow>& rows = settings.tables.at("motor");
-  if (rows.empty() || rows.size() > Motor::kMostPoints) {
+  if (rows.empty() || rows.size() > Motor::kMaxPoints) {
     throw SetupError(
-        "motor", fmt::format("must have 1 to {} rows, found {}", Motor::kMostPoints, rows.size()));
+        "motor", fmt::format("must have 1 to {} rows, found {}", Motor::kMaxPoints, rows.size()));
   }
   Motor motor;
   motor.drag = drag;
@@ -224,7 +225,7 @@ Motor motorOf(const Settings& settings, double drag) {
   return motor;
 }
 
-/// Those of its parameters and those about critical speeds.
+/// The bands in its parameters and those about critical speeds.
 ExclusionBands bandsOf(const Settings& settings, const ControllerPlan& plan) {
   std::vector<SpeedBand> bands = plan.critical_bands;
   const auto given = settings.tables.find("avoid");
@@ -235,7 +236,7 @@ ExclusionBands bandsOf(const Settings& settings, const ControllerPlan& plan) {
   }
   try {
     return ExclusionBands(bands);
-  } catch (const Refusal& error) {
+  } catch (const InputError& error) {
     throw SetupError("avoid", error.what());
   }
 }
@@ -245,7 +246,7 @@ ShaftLimits limitsOf(const ParameterValues& values, const Settings& settings) {
           values.at("max_acceleration")};
 }
 
-/// After a capture: with all the torque that there is.
+/// After a capture: with the full torque.
 ShaftLimits limitsAgain(ShaftLimits limits, const ParameterValues& values) {
   limits.reserve = 0.0;
   limits.max_acceleration = values.at("retry_acceleration");
@@ -257,7 +258,7 @@ double runUpOf(const ParameterValues& values) {
   return acceleration * acceleration / (2.0 * values.at("max_jerk"));
 }
 
-/// The bands of the way up; those with less than a run-up between them as one.
+/// The bands in the upward direction; those separated by less than a run-up are merged.
 std::vector<SpeedBand> upwardBands(const ExclusionBands& avoid, double run_up) {
   std::vector<SpeedBand> bands;
   for (const SpeedBand& band : avoid.bands()) {
@@ -273,7 +274,7 @@ std::vector<SpeedBand> upwardBands(const ExclusionBands& avoid, double run_up) {
   return bands;
 }
 
-/// What does not hang on bands.
+/// Checks that do not depend on bands.
 void check(const ParameterValues& values, const ControllerPlan& plan) {
   if (plan.measured != 1 || plan.outputs != 1) {
     throw SetupError("speed", fmt::format("must measure the speed of one shaft and act on it with "
@@ -290,21 +291,23 @@ void check(const ParameterValues& values, const ControllerPlan& plan) {
   }
 }
 
-/// The speed that is wanted is one that a planner leads to, from rest.
+/// Checks that a planner reaches the target speed from rest.
 void checkSpeed(const SpeedPlanner& planner, double speed, const std::string& for_what) {
   const double allowed = planner.allowed(speed, kNaN);
   if (allowed != speed) {
     throw SetupError(
         "speed",
-        fmt::format("must be outside the barred speed ranges{}, found {}; nearest edge {:g}",
-                    for_what, speed, allowed));
+        fmt::format(
+            "must be outside the barred speed ranges{}, found {} rad/s; nearest edge {:g} rad/s",
+            for_what, speed, allowed));
   }
   SpeedPlan set_points = planner.staying(0.0);
   if (!planner.plan(0.0, 0.0, speed, set_points)) {
-    throw SetupError("speed",
-                     fmt::format("must be reachable by the motor with the torque needed across the "
-                                 "barred speed ranges{}: up to {:.6g} rad/s, found {}",
-                                 for_what, planner.highest(), speed));
+    throw SetupError(
+        "speed", fmt::format("must be at most {:.6g} rad/s in magnitude, up to which the motor's "
+                             "torque, less reserve and drag, accelerates and brakes the "
+                             "shaft{}; found {} rad/s",
+                             planner.highest(), for_what, speed));
   }
 }
 
@@ -327,8 +330,8 @@ std::unique_ptr<Controller> makeSpeed(const ParameterValues& values, const Setti
 
 }  // namespace
 
-SpeedWay speedWayOf(const ParameterValues& values, const Settings& settings,
-                    const ControllerPlan& plan) {
+SpeedTrajectory speedWayOf(const ParameterValues& values, const Settings& settings,
+                           const ControllerPlan& plan) {
   check(values, plan);
   const double run_up = runUpOf(values);
   return {limitsOf(values, settings), plan.limits[0], values.at("speed"), run_up,

@@ -1,4 +1,4 @@
-// Numbers over the speed of a shaft: straight lines from row to row, the outer rows beyond them.
+// Table of values over the speed of a shaft: linear interpolation, constant beyond the outer rows.
 #pragma once
 
 #include <string>
@@ -12,15 +12,15 @@ class SpeedTable {
  public:
   SpeedTable() = default;
   /// A table of settings with a column `speed` and `columns`; empty where it is not given. Throws
-  /// SetupError at the row whose speed is not greater than that before.
+  /// SetupError at a row whose speed is not greater than that of the previous one.
   SpeedTable(const Settings& settings, const std::string& name,
              const std::vector<std::string>& columns);
-  /// One row: these numbers at any speed.
+  /// One row: constant over the speed.
   explicit SpeedTable(std::vector<double> numbers);
 
   bool empty() const { return speeds_.empty(); }
 
-  /// By the size of a speed [rad/s]; not empty. Real-time safe.
+  /// At the absolute value of a speed [rad/s]; not empty. Real-time safe.
   double at(double speed, std::size_t column) const noexcept;
   /// Is a column 0 at every speed?
   bool zero(std::size_t column) const;
@@ -31,7 +31,7 @@ class SpeedTable {
   std::vector<double> numbers_;  // row by row
 };
 
-/// What a table over speed says of itself.
+/// The description of a table over speed as a setting.
 SettingInfo speedTableSetting(const std::string& name, const std::string& meaning,
                               std::vector<ColumnInfo> columns);
 

@@ -1,5 +1,5 @@
-// State feedback by a gain that is given: u = -gain (y - setpoint), y all that is measured at the
-// sample's instant.
+// State feedback by a given gain: u = -gain (y - setpoint), y all measured quantities at the
+// sampling instant.
 #include "controllers/controller_settings.h"
 #include "controllers/controllers.h"
 #include "controllers/state_space_controller.h"

@@ -1,4 +1,4 @@
-// A controller that is a linear system in samples, of what is measured less its set-point.
+// A linear discrete-time controller in state space, of the measurement minus its set-point.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,13 +13,13 @@ DiscreteStateSpace staticLaw(const Eigen::MatrixXd& gain);
 
 class StateSpaceController final : public Controller {
  public:
-  /// setpoint: one number for each of what is measured.
+  /// setpoint: one number for each measured quantity.
   StateSpaceController(DiscreteStateSpace law, Eigen::VectorXd setpoint);
 
   void reset() noexcept override { state_.setZero(); }
   void exchange(StateImage& image) noexcept override { image(state_); }
   void update(const ControlSample& sample, double* outputs) noexcept override;
-  /// The state of one with as many.
+  /// Copies the state of one with the same number of states.
   void takeOver(const Controller& before) noexcept override;
   std::optional<DiscreteStateSpace> linear(double) const override { return law_; }
   std::vector<double> setpoint() const override {
@@ -30,7 +30,7 @@ class StateSpaceController final : public Controller {
   DiscreteStateSpace law_;
   Eigen::VectorXd setpoint_;
   Eigen::VectorXd state_;
-  Eigen::VectorXd next_;      // of update(), kept to save the room
+  Eigen::VectorXd next_;      // work space of update(), preallocated
   Eigen::VectorXd measured_;  // likewise
 };
 

@@ -1,7 +1,7 @@
-// Swings a pendulum up by its energy and holds it upright.
+// Energy-based swing-up of a pendulum and its stabilization upright.
 //
-// With theta = 0 hanging and w0 the frequency of small oscillations there, the energy in parts of
-// what lifts it from the pivot's height is e = theta'^2 / (2 w0^2) - cos(theta); upright and at
+// With theta = 0 hanging and w0 the frequency of small oscillations there, the energy relative to
+// that of a lift from the pivot's height is e = theta'^2 / (2 w0^2) - cos(theta); upright and at
 // rest e = 1. A torque drives it with theta', an acceleration of its pivot along the horizontal
 // against theta' cos(theta):
 //
@@ -10,7 +10,7 @@
 // cut() to +-1 (K. J. Astrom, K. Furuta, "Swinging up a pendulum by energy control", Automatica 36
 // (2000) 287). Within `catch` of the upright, sqrt(phi^2 + (theta' / w0)^2), phi the angle from it,
 // a state feedback takes over, u = -gain (phi, theta', what else is measured); beyond `release` it
-// swings again. Between the two it goes on as it did.
+// swings again. Between the two it keeps its mode (hysteresis).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -94,8 +94,10 @@ std::unique_ptr<Controller> makeSwingUp(const ParameterValues& values, const Set
                                             values.at("catch"), values.at("release")));
   }
   if (!(values.at("drive") <= plan.limits[0])) {
-    throw SetupError("drive", fmt::format("must be <= the limit of the output, {}, found {}",
-                                          plan.limits[0], values.at("drive")));
+    throw SetupError(
+        "drive",
+        fmt::format("must be <= actuator.limit = {}, both in the unit of the input, found {}",
+                    plan.limits[0], values.at("drive")));
   }
   return std::make_unique<SwingUp>(values, settings.choices.at("by") == "torque", gain);
 }

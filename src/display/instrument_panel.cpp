@@ -12,10 +12,10 @@
 namespace whirl_twin {
 namespace {
 
-constexpr double kLive = 3.0;  // s, that a verdict may be old
-constexpr double kLeastDecrement = -0.2,
-                 kMostDecrement = 0.6;  // log decrements at the ends of the scale
-constexpr std::size_t kRanges = 4;      // of either kind that are drawn at most
+constexpr double kLive = 3.0;  // s, maximum age of a live verdict
+constexpr double kMinDecrement = -0.2,
+                 kMaxDecrement = 0.6;  // log decrements at the ends of the scale
+constexpr std::size_t kRanges = 4;     // maximum number of ranges of either kind that are drawn
 
 constexpr Color kGrey{0.55F, 0.58F, 0.62F};
 constexpr Color kRed{0.80F, 0.20F, 0.17F};
@@ -34,8 +34,7 @@ double roundUp(double number) {
 }
 
 double decrementPlace(double log_decrement) {
-  return std::clamp((log_decrement - kLeastDecrement) / (kMostDecrement - kLeastDecrement), 0.0,
-                    1.0);
+  return std::clamp((log_decrement - kMinDecrement) / (kMaxDecrement - kMinDecrement), 0.0, 1.0);
 }
 
 bool stable(const StabilityMargin& margin) {
@@ -43,8 +42,8 @@ bool stable(const StabilityMargin& margin) {
          margin.verdict != StabilityMargin::REPEATED_IMAGINARY;
 }
 
-/// Ranges where the verdict is the other one than now, or is now: between the thresholds that are
-/// nearest.
+/// Unstable speed ranges, bounded by the nearest thresholds: between them if the system is unstable
+/// now, beyond them if it is stable.
 std::vector<SpeedRange> unstableRanges(const StabilityMargin& margin, double end) {
   const double below = margin.threshold_below;
   const double above = margin.threshold_above;
@@ -185,13 +184,13 @@ std::optional<MarginScale> marginScale(const LiveMargin& live) {
     return std::nullopt;
   }
   const StabilityMargin& margin = *live.margin;
-  const double rate = judgedDecayRate(margin);
-  const double decrement = judgedLogDecrement(margin);
+  const double rate = dampingDecayRate(margin);
+  const double decrement = dampingLogDecrement(margin);
   if (!stable(margin)) {
     return MarginScale{std::isfinite(decrement) ? decrementPlace(decrement) : 0.0,
                        MarginScale::kEdge, "unstable"};
   }
-  const auto nearness = [](double value, double level) {  // infinite: not required, or not known
+  const auto nearness = [](double value, double level) {  // infinite: not required, or unknown
     return level > 0.0 && std::isfinite(value) ? value / level : kInfinity;
   };
   const double by_decrement = nearness(decrement, live.least_decrement);
@@ -201,7 +200,7 @@ std::optional<MarginScale> marginScale(const LiveMargin& live) {
     return std::nullopt;
   }
   if (std::isfinite(by_rate) && by_rate < by_decrement) {
-    // Its level is as far from the edge as from the end.
+    // Its level is half-way between the edge and the end.
     constexpr double kLevel = 0.5 * (MarginScale::kEdge + 1.0);
     return MarginScale{
         std::clamp(MarginScale::kEdge + by_rate * (kLevel - MarginScale::kEdge), 0.0, 1.0), kLevel,

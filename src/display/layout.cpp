@@ -7,7 +7,7 @@
 namespace whirl_twin {
 namespace {
 
-constexpr std::size_t kMostInFull = 3;
+constexpr std::size_t kMaxInFull = 3;
 constexpr double kFullWidth = 1.95, kFullHeight = 3.1;        // m, of a place
 constexpr double kCompactWidth = 1.7, kCompactHeight = 2.15;  // m
 constexpr double kColumnPart = 0.22;                          // of the width of the view
@@ -18,7 +18,7 @@ double tangent() {
   return std::tan(0.5 * ViewedFrom::kAngle);
 }
 
-/// How far the camera stands from the middle of an upright rectangle that it has to see.
+/// Distance of the camera from the centre of an upright rectangle that must be in view.
 double distanceFor(double width, double height) {
   const double up = 0.5 * height * std::cos(ViewedFrom::kPitch);
   const double nearer = 0.5 * height * std::sin(ViewedFrom::kPitch);  // its upper edge
@@ -62,7 +62,7 @@ Eigen::Matrix3d boardAxes() {
 
 Layout layoutOf(std::size_t systems) {
   Layout layout;
-  layout.compact = systems > kMostInFull;
+  layout.compact = systems > kMaxInFull;
   layout.cell_width = layout.compact ? kCompactWidth : kFullWidth;
   layout.cell_height = layout.compact ? kCompactHeight : kFullHeight;
   const std::size_t count = std::max<std::size_t>(systems, 1);
@@ -70,7 +70,7 @@ Layout layoutOf(std::size_t systems) {
   const double wide = static_cast<double>(shelves.columns) * layout.cell_width;
   const double tall = static_cast<double>(shelves.rows) * layout.cell_height;
   layout.column_width = std::max(kNarrowestColumn, wide * kColumnPart / (1.0 - kColumnPart));
-  // About the middle of all that stands on the ground, column left out.
+  // About the centre of all systems on the ground, column excluded.
   const Eigen::Vector3d right = boardAxes().col(0);
   const auto at = [&](double across, double up) {
     return Eigen::Vector3d(across * right + up * Eigen::Vector3d::UnitZ());

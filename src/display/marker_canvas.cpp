@@ -24,8 +24,8 @@ std_msgs::ColorRGBA toColor(const Color& color) {
   return rgba;
 }
 
-// The points of the circle about each point of the centre line, across the line's direction there.
-// The first direction across is carried along the line without a twist.
+// The points of the circle about each point of the centre line, normal to the line. The first
+// normal is transported along the line without torsion.
 std::vector<std::vector<Eigen::Vector3d>> tubeRings(const std::vector<Eigen::Vector3d>& line,
                                                     double radius, int sides) {
   std::vector<std::vector<Eigen::Vector3d>> rings(line.size());

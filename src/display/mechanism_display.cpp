@@ -16,7 +16,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr Color kName{0.90F, 0.92F, 0.94F};
-constexpr double kThinnest = 0.004;  // m, a bar of nothing is still seen
+constexpr double kThinnest = 0.004;  // m, minimum length, to keep a zero bar visible
 
 }  // namespace
 
@@ -48,7 +48,7 @@ void CoordinateBars::draw(const Color& color, MarkerCanvas& canvas) const {
     const Eigen::Isometry3d pose(Eigen::Translation3d(x, 0.0, 0.5 * height));
     canvas.box("bar", pose,
                {std::min(0.16, 0.6 * pitch), 0.06, std::max(std::abs(height), kThinnest)}, color);
-    // The name stands on the side of the line where the bar is not.
+    // The name is on the side of the line opposite to the bar.
     canvas.text("coordinate", {x, -0.05, height > 0.0 ? -0.6 * text : 0.6 * text}, text,
                 coordinates_[i].name, kName);
   }
@@ -67,15 +67,15 @@ void CoordinateBars::draw(const Color& color, MarkerCanvas& canvas) const {
 
 namespace {
 
-// Sizes of the picture [m]. Machines are drawn true to length as long as they fit their place.
+// Sizes of the picture [m]. Machines are drawn to scale up to the available space.
 constexpr double kWidestMechanism = 1.5;
 constexpr double kTallestMechanism = 1.3;
 constexpr double kNarrowestMechanism = 1.0;
 constexpr double kMechanismBaseHeight = 0.04;
 constexpr double kBoardThickness = 0.02;
-constexpr double kMechanismTextGap = 0.14;  // between the picture and its words
+constexpr double kMechanismTextGap = 0.14;  // between the picture and its text
 constexpr double kNoShaft = std::numeric_limits<double>::quiet_NaN();
-constexpr double kFacing = -0.55;  // rad about the vertical, towards who looks at the row
+constexpr double kFacing = -0.55;  // rad about the vertical, towards the viewer of the row
 
 constexpr Color kBoard{0.17F, 0.21F, 0.26F};
 constexpr Color kCalmMass{0.30F, 0.62F, 0.52F};
@@ -86,7 +86,7 @@ bool allFinite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
 }
 
-// Whether coordinates of these names are those of the model.
+// Are coordinates of these names those of the model?
 bool isOf(const std::vector<std::string>& name, const Dynamics* dynamics) {
   if (dynamics == nullptr) {
     return false;
@@ -106,7 +106,7 @@ std::vector<CoordinateInfo> coordinatesOf(const std::vector<std::string>& name,
 MechanismDisplay::MechanismDisplay(std::string name, std::shared_ptr<const Dynamics> dynamics)
     : name_(std::move(name)), dynamics_(std::move(dynamics)) {}
 
-void MechanismDisplay::update(const PendulumState& state, const Moment<double>& shaft) {
+void MechanismDisplay::update(const PendulumState& state, const EvaluationPoint<double>& shaft) {
   if (!allFinite(state.angle) || !std::isfinite(state.time) ||
       state.name.size() != state.angle.size()) {
     trail_.clear();
@@ -201,7 +201,7 @@ void MechanismDisplay::drawBoard(MarkerCanvas& canvas) const {
     return Eigen::Isometry3d(Eigen::Translation3d(middle.x(), y, z));
   };
   if (sketch_.spatial) {
-    // A bracket stands at its back edge.
+    // A bracket is placed at its back edge.
     canvas.box("stand", at(0.14 * width(), foot - 0.5 * kMechanismBaseHeight),
                {0.5 * width(), 0.88 * width(), kMechanismBaseHeight}, kBaseColor);
     return;

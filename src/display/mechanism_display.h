@@ -1,10 +1,10 @@
-// A mechanism as a picture: the sketch of its model before a board, the trail of a point of it, its
-// coordinates, energies, margins and alerts in words; where it is measured, a pale hull where the
-// sensors show it to be. A system whose model is not known, or has no
-// sketch, is shown as bars, one a coordinate.
+// A mechanism as a picture: the sketch of its model in front of a board, the trail of one of its
+// points, its coordinates, energies, margins and alerts as text; where it is measured, a pale hull
+// at the measured position. A system with an unknown model, or one without a sketch, is shown as
+// one bar per coordinate.
 //
-// The sketch's axes (see mechanics/sketch.h) stand upright in the world and face the viewer of the
-// row of systems; what turns about the vertical has x = world y, as the rotors beside it.
+// The sketch's axes (see mechanics/sketch.h) are upright in the world and face the viewer of the
+// row of systems; rotation about the vertical has x = world y, as for the rotors.
 #pragma once
 
 #include <deque>
@@ -21,8 +21,8 @@
 
 namespace whirl_twin {
 
-// A picture of a system whose model has none: a bar for each coordinate, up for positive, with its
-// name. Angles and lengths have a scale each, chosen as the whirl's is.
+// Picture of a system whose model has none: a bar for each coordinate, upwards for positive, with
+// its name. Angles and lengths have separate scales, chosen like that of the whirl.
 
 class CoordinateBars {
  public:
@@ -50,22 +50,22 @@ class MechanismDisplay : public SystemDisplay {
   static constexpr double kTrailTime = 2.0;               ///< [s], simulated
   static constexpr double kTrailStep = kTrailTime / 400;  ///< [s] between points of the trail
 
-  /// @param name of the system  @param dynamics of its model; null: not known
+  /// @param name of the system  @param dynamics of its model; null: unknown
   MechanismDisplay(std::string name, std::shared_ptr<const Dynamics> dynamics);
 
   /// The model with other parameters, of the same coordinates.
   void setDynamics(std::shared_ptr<const Dynamics> dynamics) { dynamics_ = std::move(dynamics); }
 
-  /// Takes the next state; cheap enough for every step of the twin. A state that is not finite, or
-  /// is not one of this model, leaves the picture as it was.
+  /// Processes the next state; cheap enough for every step of the twin. A state that is not finite,
+  /// or not of this model, leaves the picture unchanged.
   /// @param shaft the motion of its shaft at that time; zero without one
-  void update(const PendulumState& state, const Moment<double>& shaft);
+  void update(const PendulumState& state, const EvaluationPoint<double>& shaft);
 
-  /// Where sensors show it to be, coordinates as in the states; it is drawn until measuredGone().
+  /// Measured position, coordinates as in the states; it is drawn until measuredGone().
   void measure(const std::vector<double>& place);
   void measuredGone() { measured_ = {}; }
 
-  /// [-], metres in the picture for a metre of the machine.
+  /// [-], metres in the picture per metre of the machine.
   double pictureScale() const;
 
   Eigen::Isometry3d placedAt(const Eigen::Vector3d& place) const override;
@@ -93,7 +93,7 @@ class MechanismDisplay : public SystemDisplay {
   std::shared_ptr<const Dynamics> dynamics_;
   PendulumState state_;
   std::vector<CoordinateInfo> coordinates_;
-  Moment<double> shaft_;
+  EvaluationPoint<double> shaft_;
   Sketch sketch_;
   Sketch measured_;
   CoordinateBars bars_;

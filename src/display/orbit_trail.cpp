@@ -8,9 +8,9 @@
 namespace whirl_twin {
 namespace {
 
-// rad between points of the line: a 40-gon looks round at the size it is drawn.
+// rad between points of the line: a 40-gon appears round at the drawn size.
 constexpr double kSmoothAdvance = 0.15;
-// rad between states beyond which the polynomial between them would be an invention.
+// rad between states beyond which the interpolation polynomial is meaningless.
 constexpr double kWidestGap = 2.0;
 
 Eigen::Vector2d hermite(const Eigen::Vector2d& p0, const Eigen::Vector2d& v0,
@@ -31,8 +31,8 @@ void OrbitTrail::clear() {
   extent_ = 0.0;
 }
 
-// How far the picture has moved on, in radians: the turn of the shaft, or the way of the disc
-// centre against the size of its orbit (which for a circular orbit is the turn of the whirl).
+// Advance of the picture in radians: the rotation of the shaft, or the path of the disc centre
+// divided by the size of its orbit (for a circular orbit the rotation of the whirl).
 double OrbitTrail::advance(const Sample& from, const Sample& to) const {
   const double turn = std::abs(to.shaft_angle - from.shaft_angle);
   const double way = to.velocity.norm() * (to.time - from.time);
@@ -70,7 +70,7 @@ std::vector<Eigen::Vector2d> OrbitTrail::points() const {
     return line;
   }
   line.reserve(kMaxPoints);
-  // Newest first, so that the limit cuts off the oldest.
+  // Newest first, so that the limit removes the oldest.
   const Sample* to = &newest_;
   line.push_back(to->position);
   for (auto from = samples_.rbegin(); from != samples_.rend(); ++from) {

@@ -1,9 +1,9 @@
-// The orbit of the disc centre over the last turns of the shaft, kept with as few points as a
-// smooth line needs although it is fed every step.
+// The orbit of the disc centre over the last turns of the shaft, stored with as few points as a
+// smooth line needs although it receives every step.
 //
-// A point is kept when the shaft or the whirl has advanced far enough since the last one. Between
-// points further apart than the eye forgives (a fast rotor makes a large angle a step) the line is
-// the cubic Hermite polynomial through positions and velocities, error about advance^4 / 384 of the
+// A point is stored when the shaft or the whirl has advanced far enough since the last one. Between
+// points too far apart for a polyline (a fast rotor makes a large angle a step) the line is the
+// cubic Hermite polynomial through positions and velocities, error about advance^4 / 384 of the
 // radius.
 #pragma once
 
@@ -20,11 +20,11 @@ class OrbitTrail {
  public:
   static constexpr std::size_t kMaxPoints = 600;
 
-  /// @param turns [-], turns of the shaft the trail reaches back, > 0
+  /// @param turns [-], length of the trail in turns of the shaft, > 0
   explicit OrbitTrail(double turns);
 
-  /// Takes the next state. A step back in time, a state that is not finite and a gap too wide to
-  /// draw a line across start the trail anew.
+  /// Adds the next state. A step back in time, a state that is not finite or a gap too wide to
+  /// bridge by a line restarts the trail.
   void add(const WhirlState& state);
 
   void clear();

@@ -9,7 +9,7 @@
 namespace whirl_twin {
 namespace {
 
-// Sizes of the picture [m]; only the whirl is to scale, and that to the scale written beside it.
+// Sizes of the picture [m]; only the whirl is to scale, with the displayed scale factor.
 constexpr double kShaftHeight = 0.66;
 constexpr double kShaftLength = 1.3;
 constexpr double kShaftRadius = 0.022;
@@ -73,8 +73,8 @@ void RotorDisplay::drawStand(MarkerCanvas& canvas) const {
 void RotorDisplay::drawShaft(MarkerCanvas& canvas) const {
   const Eigen::Vector2d whirl = bodyPose().translation().head<2>();
   canvas.tube("shaft", bentShaft(kShaftLength, whirl, 25), kShaftRadius, kSteelColor);
-  // Stubs beyond the bearings; the front one carries the keyphasor's reference mark, which stands
-  // at shaft angle zero like the unbalance, under a probe on the rotor's x axis.
+  // Stubs beyond the bearings; the front one carries the keyphasor's reference mark, which is at
+  // shaft angle zero like the unbalance, under a probe on the rotor's x axis.
   const double bearing = 0.5 * kShaftLength;
   canvas.cylinder("shaft", {0, 0, -bearing - 0.12}, {0, 0, -bearing}, kShaftRadius, kSteelColor);
   canvas.cylinder("shaft", {0, 0, bearing}, {0, 0, bearing + 0.12}, kShaftRadius, kSteelColor);
@@ -117,7 +117,7 @@ void RotorDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const 
   drawOrbit(canvas);
   MarkerCanvas plane = canvas.moved(at(0.0, 0.0, 0.5 * kDiscThickness + 0.010));
   drawLimits(status.limits, status.orders.get(), scale_.value(), plane);
-  // Beside the shaft; where there is little room, before the base.
+  // Beside the shaft; in a compact view in front of the base.
   const Eigen::Vector3d beside = status.compact
                                      ? Eigen::Vector3d(-0.41, -0.54, 0.43)
                                      : Eigen::Vector3d(0.0, -0.14, 0.5 * kShaftLength + 0.25);

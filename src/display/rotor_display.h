@@ -1,7 +1,6 @@
 // A rotor as a picture: a shaft between two bearings, bent by the whirl to a half sine, the disc at
-// the whirling centre with the mark of its unbalance, the orbit's trail within the limits that are
-// set for it, margins and alerts in words. The whirl is drawn exaggerated and the factor stands
-// beside the shaft.
+// the whirling centre with its unbalance mark, the orbit's trail with its limit circles, margins
+// and alerts as text. The whirl is drawn exaggerated; the factor is shown beside the shaft.
 //
 // Rotor axes (z along the shaft, x and y across it, rotation from x to y positive) lie in the world
 // so that the shaft is level: rotor z = world x (REP 103: forward), rotor x = world y, rotor y =
@@ -22,7 +21,7 @@ class RotorDisplay : public SystemDisplay {
   /// @param name of the system  @param whirl_scale [-], 0: automatic  @param trail_turns [-], > 0
   RotorDisplay(std::string name, double whirl_scale, double trail_turns);
 
-  /// Takes the next state; cheap enough for every step of the twin.
+  /// Processes the next state; cheap enough for every step of the twin.
   void update(const WhirlState& state);
 
   Eigen::Isometry3d placedAt(const Eigen::Vector3d& place) const override;
@@ -42,8 +41,9 @@ class RotorDisplay : public SystemDisplay {
   OrbitTrail trail_;
 };
 
-/// The centre line of a shaft of the given length [m] along z about the origin, held in bearings at
-/// its ends and displaced at midspan by `whirl` [m]: a half sine, the first bending shape.
+/// The centre line of a shaft of the given length [m] along z about the origin, supported in
+/// bearings at its ends and displaced at midspan by `whirl` [m]: a half sine, the first bending
+/// mode.
 std::vector<Eigen::Vector3d> bentShaft(double length, const Eigen::Vector2d& whirl,
                                        std::size_t points);
 

@@ -16,10 +16,10 @@ constexpr Color kCalmLimit{0.35F, 0.80F, 0.45F};
 
 void drawLimits(const std::vector<VibrationLimit>& limits, const OrderState* orders, double scale,
                 MarkerCanvas& canvas) {
-  constexpr std::size_t kMostLimits = 5;  // three zones, two levels
-  constexpr double kLargest = 0.5;        // m, in the picture
+  constexpr std::size_t kMaxLimits = 5;  // three zones, two levels
+  constexpr double kLargest = 0.5;       // m, in the picture
   constexpr int kSides = 48;
-  for (std::size_t i = 0; i < kMostLimits; ++i) {
+  for (std::size_t i = 0; i < kMaxLimits; ++i) {
     std::vector<Eigen::Vector3d> circle;
     Color color{0.0F, 0.0F, 0.0F};
     if (i < limits.size() && scale * limits[i].radius <= kLargest) {
@@ -60,7 +60,7 @@ std::vector<std::string> whirlLines(const WhirlState& state, const SystemStatus&
 }
 
 std::string exaggerationText(double scale) {
-  // "500", "0.02", "1 000 000": a round number as one writes it.
+  // "500", "0.02", "1 000 000": usual notation of a round number.
   return "whirl x " + (scale >= 1.0 ? fmt::format("{:.0f}", scale) : fmt::format("{:.3g}", scale));
 }
 

@@ -1,4 +1,4 @@
-// What the pictures of all rotors have: limits about an orbit, and what is said of a whirl.
+// Elements common to the pictures of all rotors: limits about an orbit, and the text on a whirl.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace whirl_twin {
 constexpr Color kOrbitColor{0.35F, 0.85F, 1.0F};
 
 /// Circles of the limits about an orbit that is drawn `scale` times as large, in the plane z = 0 of
-/// the canvas [m]; those that would leave the picture are not drawn.
+/// the canvas [m]; those larger than the picture are not drawn.
 void drawLimits(const std::vector<VibrationLimit>& limits, const OrderState* orders, double scale,
                 MarkerCanvas& canvas);
 

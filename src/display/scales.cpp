@@ -9,14 +9,14 @@ namespace whirl_twin {
 
 namespace {
 
-// Between an orbit far below any measurement and one a diverging rotor has left the room on.
-constexpr double kLargestScale = 1e6;
+// From an orbit far below any measurement to that of a diverging rotor.
+constexpr double kMaxScale = 1e6;
 constexpr double kSmallestScale = 1e-9;
 
 }  // namespace
 
 WhirlScale::WhirlScale(double fixed, double room)
-    : fixed_(fixed), room_(room), value_(fixed > 0.0 ? fixed : kLargestScale) {}
+    : fixed_(fixed), room_(room), value_(fixed > 0.0 ? fixed : kMaxScale) {}
 
 void WhirlScale::observe(double radius, double time) {
   if (fixed_ > 0.0 || !std::isfinite(radius)) {
@@ -26,8 +26,8 @@ void WhirlScale::observe(double radius, double time) {
   time_ = time;
   peak_ = elapsed < 0.0 ? radius : std::max(radius, peak_ * std::exp(-elapsed / kPeakDecayTime));
   const double drawn = peak_ * value_ / room_;
-  if (drawn > kLargestRadius || (drawn < kSmallestRadius && peak_ > 0.0)) {
-    value_ = std::clamp(roundDown125(room_ * kTargetRadius / peak_), kSmallestScale, kLargestScale);
+  if (drawn > kMaxRadius || (drawn < kMinRadius && peak_ > 0.0)) {
+    value_ = std::clamp(roundDown125(room_ * kTargetRadius / peak_), kSmallestScale, kMaxScale);
   }
 }
 

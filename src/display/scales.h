@@ -1,4 +1,4 @@
-// A scale on a board: ranges of colours between places 0 to 1 of its length, and a pointer.
+// A scale on a board: coloured ranges at positions 0 to 1 of its length, and a pointer.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,11 +14,11 @@ class ScaleBar {
  public:
   static constexpr double kWidth = 1.3;  ///< [m]
 
-  /// middle [m]: how high on the board; height [m]
+  /// middle [m]: height of its centre on the board; height [m]
   ScaleBar(std::string part, double middle, double height, MarkerCanvas& board)
       : part_(std::move(part)), middle_(middle), height_(height), board_(board) {}
 
-  /// Takes it away where it has no length. A higher layer is in front.
+  /// Removed where it has no length. A higher layer is in front.
   void range(const std::string& name, double from, double to, const Color& color, int layer) {
     from = std::clamp(from, 0.0, 1.0);
     to = std::clamp(to, 0.0, 1.0);
@@ -48,29 +48,29 @@ class ScaleBar {
   MarkerCanvas& board_;
 };
 
-// How strongly the whirl is exaggerated on the screen. The orbit of a real rotor is micrometres
-// wide and would be invisible drawn true, so it is drawn times a round number of the 1-2-5 series.
+// Display magnification of the whirl. The orbit of a real rotor is micrometres wide and would be
+// invisible to scale, so it is multiplied by a round number of the 1-2-5 series.
 //
-// The number follows a peak-hold of the whirl radius with a slow decay, and with hysteresis: it
-// falls when the orbit outgrows its place in the picture and rises only when the orbit has become
-// small in it. In between, growth and decay of the whirl are seen as they are.
+// The factor follows a peak-hold of the whirl radius with a slow decay, and with hysteresis: it
+// falls when the orbit outgrows its space in the picture and rises only when the orbit has become
+// small in it. In between, growth and decay of the whirl are shown undistorted.
 
 class WhirlScale {
  public:
-  static constexpr double kTargetRadius = 0.25;   ///< [m] in the picture, at most, after a choice
-  static constexpr double kLargestRadius = 0.30;  ///< [m] in the picture; beyond it the scale falls
-  static constexpr double kSmallestRadius = 0.04;  ///< [m] in the picture; below it the scale rises
-  static constexpr double kPeakDecayTime = 3.0;    ///< [s], time constant of the peak-hold
+  static constexpr double kTargetRadius = 0.25;  ///< [m] in the picture, at most, after a choice
+  static constexpr double kMaxRadius = 0.30;     ///< [m] in the picture; beyond it the scale falls
+  static constexpr double kMinRadius = 0.04;     ///< [m] in the picture; below it the scale rises
+  static constexpr double kPeakDecayTime = 3.0;  ///< [s], time constant of the peak-hold
 
-  /// @param fixed [-], a scale that is kept whatever the whirl does; 0: chosen automatically.
-  /// @param room [-], how much there is: the radii above are times this
+  /// @param fixed [-], a constant scale, whatever the whirl; 0: automatic.
+  /// @param room [-], available space: the radii above are multiplied by it
   explicit WhirlScale(double fixed = 0.0, double room = 1.0);
 
-  /// Takes the next whirl radius into account. A radius that is not finite is passed over.
-  /// @param radius [m]  @param time [s], simulated; a step backwards starts the peak-hold anew
+  /// Processes the next whirl radius. A radius that is not finite is ignored.
+  /// @param radius [m]  @param time [s], simulated; a step backwards restarts the peak-hold
   void observe(double radius, double time);
 
-  /// [-], metres in the picture for a metre of whirl.
+  /// [-], metres in the picture per metre of whirl.
   double value() const { return value_; }
 
  private:

@@ -106,7 +106,7 @@ bool SceneDynamics::refresh() {
         actuator_limits_[controller.name] = controller.actuator.limit;
       }
     }
-  } catch (const Refusal& error) {
+  } catch (const InputError& error) {
     ROS_WARN("systems are shown without their models, because the scene is invalid:\n%s",
              error.what());
   }
@@ -161,8 +161,8 @@ std::optional<MeasuredPlace> SceneDynamics::measuredPlace(const std::string& sys
   return found == measured_.end() ? std::nullopt : std::optional<MeasuredPlace>(found->second);
 }
 
-Moment<double> SceneDynamics::shaft(const std::string& system, double time,
-                                    const DriveState* drive) const {
+EvaluationPoint<double> SceneDynamics::shaft(const std::string& system, double time,
+                                             const DriveState* drive) const {
   if (drive != nullptr) {
     // The drive's message may be a step older or newer than the system's.
     return {time, drive->shaft_angle + drive->speed * (time - drive->time), drive->speed,

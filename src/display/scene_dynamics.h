@@ -1,5 +1,5 @@
-// The models of the twin's scene, /twin/scene, for displays. Without a scene, or with one that is
-// not right, nothing is known of any system.
+// The models of the twin's scene, /twin/scene, for displays. Without a scene, or with an invalid
+// one, no system has a model.
 #pragma once
 
 #include <map>
@@ -16,20 +16,20 @@
 
 namespace whirl_twin {
 
-// Where sensors show a system to be: the coordinates of the newest sample, of a source of the scene
+// Measured position of a system: the coordinates of the newest sample, from a source of the scene
 // that measures each coordinate of the system.
 
 class MeasuredPlace {
  public:
-  /// Of a system of the scene, by its first source that will do; none: no source measures all of
-  /// its coordinates, or it is a rotor, whose whirl is drawn larger than it is.
+  /// For a system of the scene, from its first suitable source; none: no source measures all of its
+  /// coordinates, or it is a rotor, whose whirl is drawn magnified.
   static std::optional<MeasuredPlace> of(const BuiltScene& scene, const std::string& system);
 
-  /// The source whose blocks show it.
+  /// The source of the measurement.
   const std::string& source() const { return source_; }
 
-  /// Coordinates [m or rad] of the newest sample of a block of which each is valid; empty: there
-  /// is none, or the block has not the channels, or in units of another kind.
+  /// Coordinates [m or rad] of the newest sample of a block with all channels valid; empty: no such
+  /// sample, or the block lacks channels, or has incompatible units.
   std::vector<double> newest(const Measurement& block) const;
 
  private:
@@ -41,36 +41,37 @@ class MeasuredPlace {
 
 class SceneDynamics {
  public:
-  /// Reads the scene; true if it is not the one that was there before.
+  /// Reads the scene; true if it differs from the previous one.
   bool refresh();
 
-  /// Takes over changed parameters; false if they are not of this scene.
+  /// Applies changed parameters; false if they are not of this scene.
   bool take(const ParameterChange& change);
 
-  /// The model of a system; null if it is not known.
+  /// The model of a system; null if unknown.
   std::shared_ptr<const Dynamics> dynamics(const std::string& system) const;
 
-  /// The system that a whirl of this name is published of: that itself, or of which it is a
+  /// The system for which a whirl is published under this name: the system itself, or one with this
   /// station.
   std::string systemOf(const std::string& published) const;
 
-  /// Name of the drive that turns a system; "" without one.
+  /// Name of the drive of a system; "" without one.
   std::string driveOf(const std::string& system) const;
 
-  /// What the actuators of a controller can give, in the unit of its outputs; infinite: there is no
-  /// limit, or no such controller.
+  /// Actuator limit of a controller, in the unit of its outputs; infinite: no limit, or no such
+  /// controller.
   double actuatorLimit(const std::string& controller) const;
 
-  /// How sensors of the scene show where a system is; none: they do not.
+  /// The position of a system as measured by sensors of the scene; none: not measured.
   std::optional<MeasuredPlace> measuredPlace(const std::string& system) const;
 
   /// The motion of a system's shaft at a time [s], simulated.
   /// @param drive the latest state of its drive; null without one
-  Moment<double> shaft(const std::string& system, double time, const DriveState* drive) const;
+  EvaluationPoint<double> shaft(const std::string& system, double time,
+                                const DriveState* drive) const;
 
  private:
-  std::string tree_;                             // of parameters, as they were read last
-  std::map<std::string, SharedSystem> systems_;  // with their parameters as they are now
+  std::string tree_;                             // of parameters, as last read
+  std::map<std::string, SharedSystem> systems_;  // with their current parameters
   std::map<std::string, MeasuredPlace> measured_;
   std::map<std::string, double> actuator_limits_;  // of each controller
 };

@@ -15,17 +15,18 @@
 namespace whirl_twin {
 namespace {
 
-// Sizes of the picture [m]. Machines are drawn true to length as long as they fit their place.
+// Sizes of the picture [m]. Machines are drawn to scale up to the available space.
 constexpr double kWidestShaft = 2.2;
 constexpr double kNarrowestShaft = 1.8;
 constexpr double kTallestShaft = 1.2;
 constexpr double kShaftBaseHeight = 0.04;
-constexpr double kShaftTextGap = 0.16;  // between the picture and its words
+constexpr double kShaftTextGap = 0.16;  // between the picture and its text
 constexpr double kLowestText = 0.40;    // above the shaft
-constexpr double kTowardsViewer = 0.6;  // rad, that the shaft is turned from across the view
-constexpr double kBeforeDisc = 0.012;   // of an orbit, which a disc would hide
-constexpr double kSamePlace = 1.0e-9;   // of the picture's size
-constexpr double kRoom = 0.4;           // of the picture's height: what the whirl may take
+// rad, rotation of the shaft from across the view towards the viewer
+constexpr double kTowardsViewer = 0.6;
+constexpr double kBeforeDisc = 0.012;  // of an orbit, so that the disc does not hide it
+constexpr double kSamePlace = 1.0e-9;  // of the picture's size
+constexpr double kRoom = 0.4;          // of the picture's height: space for the whirl
 
 std::vector<Station> publishedOf(const std::vector<Station>& stations) {
   std::vector<Station> published{stations.front()};
@@ -57,7 +58,7 @@ ShaftDisplay::ShaftDisplay(std::string name, std::shared_ptr<const Dynamics> dyn
       at_rest_(dynamics_->sketch(Eigen::VectorXd::Zero(dynamics_->dof()), {})),
       picture_scale_(scaleOf(at_rest_)),
       shape_(dynamics_->linearRotor(), publishedOf(stations_)),
-      scale_(whirl_scale, kRoom * height() / WhirlScale::kLargestRadius) {
+      scale_(whirl_scale, kRoom * height() / WhirlScale::kMaxRadius) {
   for (const Station& station : publishedOf(stations_)) {
     places_.push_back({places_.empty() ? name_ : stationName(name_, station),
                        station,
@@ -69,7 +70,7 @@ ShaftDisplay::ShaftDisplay(std::string name, std::shared_ptr<const Dynamics> dyn
 void ShaftDisplay::setDynamics(std::shared_ptr<const Dynamics> dynamics) {
   dynamics_ = std::move(dynamics);
   stations_ = dynamics_->stations();
-  shape_ = WholeShape(dynamics_->linearRotor(), publishedOf(stations_));
+  shape_ = ShapeExpansion(dynamics_->linearRotor(), publishedOf(stations_));
 }
 
 std::vector<std::string> ShaftDisplay::published() const {
@@ -181,7 +182,7 @@ void ShaftDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const 
     q = shape_.at(state.shaft_angle, state.speed, whirl_);
     scale_.observe(longestRadius(q), state.time);
   }
-  Moment<double> at{};
+  EvaluationPoint<double> at{};
   at.time = state.time;
   at.angle = state.shaft_angle;
   at.speed = state.speed;

@@ -1,10 +1,10 @@
-// A rotor of a shaft with places along it as a picture: every element with its diameter, discs,
-// bearings and pedestals as its model draws them, to scale, the whole shaft bent as its whirl shows
-// it (analysis/whole_shape.h) by the factor that is written beside it, an orbit with its limits at
-// every place that is published.
+// Picture of a rotor with stations along its shaft: every element with its diameter, discs,
+// bearings and pedestals as its model draws them, to scale, the whole shaft bent according to its
+// whirl (analysis/shape_expansion.h), magnified by the displayed factor, and an orbit with its
+// limits at every published station.
 //
-// Rotor axes as in rotor_display.h, the middle of the shaft their origin; the shaft lies level and
-// obliquely to the viewer, its last node nearest.
+// Rotor axes as in rotor_display.h, with the origin at the middle of the shaft; the shaft is level
+// and oblique to the viewer, its last node nearest.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/whole_shape.h"
+#include "analysis/shape_expansion.h"
 #include "display/orbit_trail.h"
 #include "display/scales.h"
 #include "display/system_display.h"
@@ -23,7 +23,7 @@ namespace whirl_twin {
 
 class ShaftDisplay : public SystemDisplay {
  public:
-  /// Whether a model has a picture and several places along its shaft; null has not.
+  /// Does the model have a picture and several stations along its shaft? False for null.
   static bool shows(const Dynamics* dynamics);
 
   /// @param dynamics one that it shows()  @param whirl_scale [-], 0: automatic
@@ -31,14 +31,14 @@ class ShaftDisplay : public SystemDisplay {
   ShaftDisplay(std::string name, std::shared_ptr<const Dynamics> dynamics, double whirl_scale,
                double trail_turns);
 
-  /// The model with other parameters, of the same places.
+  /// The model with other parameters, of the same stations.
   void setDynamics(std::shared_ptr<const Dynamics> dynamics);
 
-  /// The names that its whirl is published under, its own first.
+  /// The names under which its whirl is published, its own first.
   std::vector<std::string> published() const;
 
-  /// Takes the next state of one of them; cheap enough for every step of the twin. The picture is
-  /// that of the newest step of which all have told.
+  /// Processes the next state of one of them; cheap enough for every step of the twin. The picture
+  /// shows the newest step for which the states of all have arrived.
   void update(const std::string& published, const WhirlState& state);
 
   Eigen::Isometry3d placedAt(const Eigen::Vector3d& place) const override;
@@ -55,10 +55,10 @@ class ShaftDisplay : public SystemDisplay {
     bool told = false;
   };
 
-  /// In the picture [m], of a place at `position` [m] of the shaft that whirls by x, y [m].
+  /// In the picture [m], of a station at `position` [m] of the shaft with the whirl x, y [m].
   Eigen::Vector3d drawnAt(double position, double x, double y) const;
   double height() const { return picture_scale_ * at_rest_.height; }
-  /// [m], in the picture: half of the thickest disc at a place.
+  /// [m], in the picture: half the thickness of the thickest disc at a station.
   double inFront(double position) const;
   double longestRadius(const Eigen::VectorXd& q) const;
   void drawBase(MarkerCanvas& canvas) const;
@@ -68,12 +68,12 @@ class ShaftDisplay : public SystemDisplay {
   std::shared_ptr<const Dynamics> dynamics_;
   std::vector<Station> stations_;  // all along the shaft
   Sketch at_rest_;
-  double picture_scale_ = 1.0;  // [-], metres in the picture for a metre of the machine
+  double picture_scale_ = 1.0;  // [-], metres in the picture per metre of the machine
   std::vector<Place> places_;   // published, the system's own first
   std::optional<WhirlState> shown_;
-  Eigen::VectorXd whirl_;     // of the places, at that step
-  mutable WholeShape shape_;  // keeps what it found for a speed
-  mutable WhirlScale scale_;  // follows what is drawn
+  Eigen::VectorXd whirl_;         // of the stations, at that step
+  mutable ShapeExpansion shape_;  // caches the result for a speed
+  mutable WhirlScale scale_;      // adapts to the drawn whirl
 };
 
 }  // namespace whirl_twin

@@ -10,11 +10,11 @@ constexpr Color kBrass{0.86F, 0.73F, 0.40F};
 constexpr Color kForce{0.35F, 0.85F, 1.0F};
 
 constexpr Color kHull{0.55F, 0.85F, 1.0F, 0.35F};
-constexpr double kHullWidth = 1.7;  // times as thick as what is in it
+constexpr double kHullWidth = 1.7;  // thickness relative to the enclosed element
 
 constexpr int kWindings = 9;
 constexpr int kPointsPerWinding = 14;
-constexpr double kShortestLength = 1e-6;  // m in the picture, of what has a direction
+constexpr double kMinLength = 1e-6;  // m in the picture, of an element with a direction
 
 class SketchDrawing {
  public:
@@ -30,7 +30,7 @@ class SketchDrawing {
     canvas_.sphere("ball", at(ball.at), scale_ * ball.radius, color(ball.role));
   }
   void draw(const Sketch::Box& box) {
-    // A positive turn about y is from z to x.
+    // A positive rotation about y is from z to x.
     const Eigen::Isometry3d pose =
         Eigen::Translation3d(at(box.at)) * Eigen::AngleAxisd(-box.pitch, Eigen::Vector3d::UnitY());
     canvas_.box("box", pose, at(box.size), color(box.role));
@@ -77,10 +77,9 @@ class SketchDrawing {
 
  private:
   Eigen::Vector3d at(const SketchPoint& point) const { return scale_ * toVector(point); }
-  // The other end of a part that needs a direction.
+  // Second end point of an element that needs a direction.
   static Eigen::Vector3d apart(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-    return (to - from).norm() < kShortestLength ? from + kShortestLength * Eigen::Vector3d::UnitX()
-                                                : to;
+    return (to - from).norm() < kMinLength ? from + kMinLength * Eigen::Vector3d::UnitX() : to;
   }
   Color color(SketchRole role) const {
     if (alike_) {
@@ -120,7 +119,7 @@ std::vector<Eigen::Vector3d> coil(const Eigen::Vector3d& from, const Eigen::Vect
   for (int i = 0; i <= points; ++i) {
     const double s = static_cast<double>(i) / points;
     const double angle = 2.0 * M_PI * kWindings * s;
-    // The radius grows over the first and the last half winding, so that the wire has no corner.
+    // The radius grows over the first and the last half winding, so that the wire has no kink.
     const double open = std::min({1.0, 2.0 * kWindings * s, 2.0 * kWindings * (1.0 - s)});
     line.emplace_back(from + (kStraight + (1.0 - 2.0 * kStraight) * s) * way +
                       open * radius * (std::cos(angle) * u + std::sin(angle) * v));

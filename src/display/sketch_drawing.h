@@ -14,12 +14,12 @@ inline Eigen::Vector3d toVector(const SketchPoint& p) {
 }
 
 /// Everything but the tracer, in the sketch's axes.
-/// @param scale [-], metres in the picture for a metre of the machine
+/// @param scale [-], metres in the picture per metre of the machine
 /// @param mass colour of the masses
 void drawSketch(const Sketch& sketch, double scale, const Color& mass, MarkerCanvas& canvas);
 
-/// What moves of a sketch, as a pale hull about the same sketch drawn in full: where a measurement
-/// shows it to be. Without supports, forces and paths.
+/// The moving elements of a sketch, as a pale hull about the same sketch drawn in full: the
+/// measured position. Without supports, forces and paths.
 void drawHull(const Sketch& sketch, double scale, MarkerCanvas& canvas);
 
 /// Windings of a spring between its ends, straight for a short way at either; [m].

@@ -13,7 +13,7 @@ namespace whirl_twin {
 
 namespace {
 
-/// A value to the second digit of its deviation, "0.000289 +- 5.9e-05".
+/// A value rounded to the second digit of its standard deviation, "0.000289 +- 5.9e-05".
 std::string withDeviation(double value, double deviation) {
   if (!(deviation > 0.0) || value == 0.0 || !std::isfinite(value) || !std::isfinite(deviation)) {
     return fmt::format("{:.4g}", value);
@@ -86,19 +86,20 @@ std::string vibrationText(double amplitude) {
 }
 
 std::string ordersText(const OrderState& orders) {
-  constexpr double kAside = 0.2;  // of the amplitude, that a middle must be off to be mentioned
+  // minimum offset of the orbit's centre, relative to the amplitude, to be mentioned
+  constexpr double kAside = 0.2;
   std::vector<std::string> parts;
   double first = 0.0;
   if (orders.valid && !orders.order.empty()) {
     first = orders.forward_amplitude[0] + orders.backward_amplitude[0];
     parts.push_back(fmt::format("1X {:.1f} um", first * 1e6));
-    // Below what the estimate can tell there is no angle.
+    // Below the resolution of the estimate the angle is undefined.
     if (orders.forward_amplitude[0] > 3.0 * orders.deviation[0]) {
       parts.push_back(fmt::format("lag {:.1f} deg", wrappedDegrees(orders.forward_lag[0])));
     }
   }
   parts.emplace_back(orders.forward ? "forward" : "backward");
-  // Sag, or the load of bearings: no part of the vibration.
+  // Static deflection, by sag or bearing load: not vibration.
   const double aside = std::hypot(orders.mean_x, orders.mean_y);
   if (orders.valid && aside > kAside * first) {
     parts.push_back(fmt::format("mean {:.1f} um from the axis", aside * 1e6));
@@ -192,7 +193,7 @@ std::string decayText(const StabilityMargin& margin) {
 }
 
 std::vector<std::string> marginLines(const StabilityMargin& margin) {
-  // A rotor with many critical speeds fills the picture: those around the present speed are enough.
+  // Only critical speeds around the present speed: all of them would fill the picture.
   constexpr int kShown = 3;
   std::vector<std::string> lines;
   const int count = static_cast<int>(margin.critical_speed.size());

@@ -1,5 +1,5 @@
-// What the displays and the terminal say in words about a system: angles, whirl, margins, alerts.
-// Here, and only here, angles are in degrees, whirl radii in micrometres and speeds also in rpm.
+// The texts of the displays and the terminal about a system: angles, whirl, margins, alerts. Here,
+// and only here, angles are in degrees, whirl radii in micrometres and speeds also in rpm.
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@
 
 namespace whirl_twin {
 
-// What a display says of a system that follows its machine.
+// Display texts of a system with a state estimator.
 
-/// A line for each estimated parameter, "coulomb1 0.00029 +- 6e-05 N m"; then each channel that is
-/// not used, and how far the residuals are from what is expected.
+/// A line for each estimated parameter, "coulomb1 0.00029 +- 6e-05 N m"; then each unused channel,
+/// and the deviation of the residuals from their expected statistics.
 std::vector<std::string> followLines(const FollowState& follow);
 
 /// [rad] to degrees in (-180, 180].
@@ -27,15 +27,15 @@ double wrappedDegrees(double angle);
 /// "speed 100.00 rad/s (954.9 rpm)".
 std::string speedText(double speed);
 
-/// "vibration 123.4 um", of the amplitude over a revolution [m] that alarms go by; "" of NaN,
-/// before there is a revolution.
+/// "vibration 123.4 um", the amplitude over a revolution [m] that alarms use; "" for NaN, before a
+/// complete revolution.
 std::string vibrationText(double amplitude);
 
-/// "1X 120.0 um, lag 34.5 deg, forward": the first order, in which sense the whirl runs, and the
-/// largest line if it is larger than the first order; without orders what there is.
+/// "1X 120.0 um, lag 34.5 deg, forward": the first order, the sense of the whirl, and the largest
+/// non-synchronous component if it exceeds the first order; without orders the available values.
 std::string ordersText(const OrderState& orders);
 
-/// Coordinates of which only the names are known: an angle is named so, all others are lengths.
+/// Coordinates with known names only: angles are identified by their names, all others are lengths.
 std::vector<CoordinateInfo> coordinatesByName(const std::vector<std::string>& name);
 
 /// "theta 12.3 deg, x -4e-05 m".
@@ -57,17 +57,17 @@ std::string separationText(const StabilityMargin& margin, int index);
 /// "asymptotically stable".
 std::string verdictText(const StabilityMargin& margin);
 
-/// "decay rate 5 1/s, log decrement 0.314", as far as they are finite; "growth rate" when negative.
+/// "decay rate 5 1/s, log decrement 0.314", as far as finite; "growth rate" when negative.
 std::string decayText(const StabilityMargin& margin);
 
-/// Everything a display writes about a margin, a line each.
+/// All display texts on a margin, one per line.
 std::vector<std::string> marginLines(const StabilityMargin& margin);
 
 /// "INFO", "WARNING" or "DANGER".
 std::string severityName(int severity);
 
 /// Breaks a sentence at spaces into lines of at most `width` characters, indented from the second
-/// on; a word that is longer stays whole.
+/// on; a longer word is not broken.
 std::vector<std::string> wrapText(const std::string& sentence, std::size_t width);
 
 /// Lines joined with newlines.

@@ -15,7 +15,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kMostBars = 6;  // bars of a system
+constexpr std::size_t kMaxBars = 6;  // bars of a system
 constexpr Color kBar{0.30F, 0.58F, 0.86F};
 constexpr Color kAtLimit{0.80F, 0.20F, 0.17F};
 constexpr Color kMiddle{0.80F, 0.83F, 0.87F};
@@ -81,7 +81,7 @@ double drawCommands(const std::vector<Command>& commands, const std::vector<std:
   const double height = compact ? 0.07 : 0.04;  // m
   const double words = compact ? 0.0 : 0.058;   // m, of a line of them
   const double room = compact ? 0.04 : 0.03;    // m, between
-  for (std::size_t i = 0; i < kMostBars; ++i) {
+  for (std::size_t i = 0; i < kMaxBars; ++i) {
     const bool shown = i < commands.size();
     const Command command = shown ? commands[i] : Command{};
     const double place =
@@ -95,7 +95,7 @@ double drawCommands(const std::vector<Command>& commands, const std::vector<std:
                shown && !compact ? commandText(command) : "", kWordsColor);
     y += shown ? height + 1.4 * words + room : 0.0;
   }
-  for (std::size_t i = 0; i < kMostBars; ++i) {
+  for (std::size_t i = 0; i < kMaxBars; ++i) {
     const bool shown = i < loops.size() && !compact;
     board.text("loop_caption", {0.0, y + 0.7 * words, 0.03}, words, shown ? loops[i] : "",
                kWordsColor);
@@ -112,7 +112,7 @@ constexpr double kHeadlineHeight = 0.095;  // m
 constexpr double kLineHeight = 0.072;      // m
 constexpr double kCompactHeadline = 0.17;  // m
 constexpr double kCompactAlert = 0.13;     // m
-constexpr std::size_t kLineOfPlace = 40;   // characters, about as wide as a place
+constexpr std::size_t kLineOfPlace = 40;   // characters, about the width of a place
 constexpr std::size_t kAlertsShown = 3;
 
 }  // namespace
@@ -171,7 +171,7 @@ void drawStatus(const std::string& headline, const std::vector<std::string>& lin
   stack.add("follow", status.follow ? followLines(*status.follow) : std::vector<std::string>{},
             kLineHeight, kLearned);
   stack.add("text", {headline}, kHeadlineHeight, color);
-  // The most severe stands on top in full, the others below it by their names. Places without an
+  // The most severe alert is on top in full, the others below it by their names. Lines without an
   // alert are written empty, which clears them.
   const std::vector<Alert>& alerts = status.alerts;
   for (std::size_t i = kAlertsShown; i-- > 0;) {

@@ -11,7 +11,7 @@ namespace whirl_twin {
 namespace {
 
 const Alert* findAlert(const std::vector<Alert>& alerts, const Alert& wanted) {
-  // The number alone would mistake alerts of a restarted monitor, which counts from one again.
+  // The number alone is ambiguous: a restarted monitor counts from one again.
   const auto found = std::find_if(alerts.begin(), alerts.end(), [&](const Alert& alert) {
     return alert.id == wanted.id && alert.type == wanted.type && alert.system == wanted.system &&
            alert.raised_time == wanted.raised_time;

@@ -9,8 +9,8 @@
 
 namespace whirl_twin {
 
-/// "rotor: speed 100.00 rad/s (954.9 rpm), vibration 123.4 um, lag 87.3 deg, ..." with what is
-/// known.
+/// "rotor: speed 100.00 rad/s (954.9 rpm), vibration 123.4 um, lag 87.3 deg, ..." with the
+/// available values.
 std::string readoutText(const std::string& system, const SystemReadout& readout);
 
 /// A line for each alert that is in one list and not in the other, or has changed its severity.
@@ -21,7 +21,7 @@ std::vector<std::string> alertChanges(const std::vector<Alert>& before,
 /// "ALERTS OF 2 SYSTEMS INHIBITED for 840 s yet"; "" where none are.
 std::string heldBackText(const MonitorStatus& monitor);
 
-/// The first `columns` characters of a line, with "..." where something was cut off.
+/// The first `columns` characters of a line, with "..." where it was truncated.
 std::string fitted(const std::string& line, std::size_t columns);
 
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 namespace whirl_twin {
 namespace {
 
-// Two seconds of a 1 kHz topic: the master is asked, and answers, in the spinner's thread.
+// Two seconds of a 1 kHz topic: the spinner's thread also waits for answers of the master.
 constexpr std::uint32_t kQueue = 2000;
 
 template <class Message>

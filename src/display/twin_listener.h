@@ -1,5 +1,5 @@
-// Finds out from the ROS master which systems a twin publishes and listens to all of them, so that
-// a live twin, a log being played back and any scene look alike. Nothing about the scene is asked.
+// Finds the systems that a twin publishes, from the ROS master, and subscribes to all of them, so
+// that a live twin, a log playback and any scene are handled alike. It needs no scene.
 #pragma once
 
 #include <ros/ros.h>
@@ -29,7 +29,7 @@
 
 namespace whirl_twin {
 
-/// The latest that is known of one system; null before the first message.
+/// The latest data of one system; null before the first message.
 struct SystemReadout {
   WhirlState::ConstPtr whirl;
   WhirlVibration followed;                                      ///< of the whirl
@@ -41,14 +41,14 @@ struct SystemReadout {
   FollowState::ConstPtr follow;
 };
 
-/// A topic of the twin: its full name, message type and the system or drive it is about.
+/// A topic of the twin: its full name, message type and its system or drive.
 struct TwinTopic {
   std::string topic;
   std::string type;
-  std::string subject;  ///< also a source or a controller; empty for what is about all of the twin
+  std::string subject;  ///< also a source or a controller; empty for the whole twin
 };
 
-/// The topics of the twin in a namespace, such as /twin, among all that the master knows.
+/// The topics of the twin in a namespace, such as /twin, among all those registered at the master.
 std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all,
                                   const std::string& twin_namespace);
 
@@ -65,7 +65,7 @@ class TwinListener {
   using LoopHandler = std::function<void(const LoopStatistics&)>;
   using AlertHandler = std::function<void(const AlertArray&)>;
 
-  /// Called with every state, in the spinner's thread; to be set before the first discover().
+  /// Called with every state, in the spinner's thread; must be set before the first discover().
   void onWhirl(WhirlHandler handler) { whirl_handler_ = std::move(handler); }
   void onPendulum(PendulumHandler handler) { pendulum_handler_ = std::move(handler); }
   void onParameters(ParameterHandler handler) { parameter_handler_ = std::move(handler); }
@@ -77,8 +77,8 @@ class TwinListener {
   void onLoop(LoopHandler handler) { loop_handler_ = std::move(handler); }
   void onAlerts(AlertHandler handler) { alert_handler_ = std::move(handler); }
 
-  /// Asks the master and follows it. What has gone is forgotten once something else is there, so a
-  /// twin that has stopped stays on the screen until another begins.
+  /// Queries the master and updates the subscriptions. A vanished topic is dropped only when
+  /// another appears, so a stopped twin stays on the screen until the next one starts.
   void discover();
 
   const std::map<std::string, SystemReadout>& systems() const { return systems_; }
@@ -95,10 +95,11 @@ class TwinListener {
   /// The latest state of a drive; null when there is none.
   const DriveState* drive(const std::string& name) const;
 
-  /// "the monitor is silent ..."; "" while it beats. Then margins are old, and alerts too.
+  /// "no message from the monitor for ..."; "" without a timeout. After one, margins and alerts are
+  /// out of date.
   std::string monitorSilence() const;
 
-  /// Which nodes publish on the same topics beside those that are listened to; "": none do.
+  /// Other nodes that publish on the subscribed topics (duplicate publishers); "": none.
   const std::string& others() const { return others_; }
 
   /// [s], latest simulated time of any system.
@@ -110,7 +111,7 @@ class TwinListener {
   ros::Subscriber listen(const TwinTopic& topic,
                          std::function<void(const typename Message::ConstPtr&)> take);
   void forget(const TwinTopic& topic);
-  /// Each topic is one node's, that which was heard on it first, until it is silent.
+  /// Each topic is bound to one node, the first publisher received, until its timeout.
   bool isOfHolder(const std::string& topic, const std::string& publisher);
 
   ros::NodeHandle node_;
@@ -133,9 +134,9 @@ class TwinListener {
   MonitorStatus::ConstPtr monitor_;
   MonitorPulse pulse_;
   std::map<std::string, std::string> holders_;  // of each topic
-  std::map<std::string, double> heard_;         // [s], when a node was heard last on any
+  std::map<std::string, double> heard_;         // [s], last reception from a node on any
   std::string others_;
-  double others_at_ = 0.0;  // [s], when one of them was heard
+  double others_at_ = 0.0;  // [s], last reception from one of them
 };
 
 }  // namespace whirl_twin

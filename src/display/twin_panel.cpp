@@ -12,9 +12,9 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::size_t kLineOfPanel = 34;  // characters
-constexpr double kCharacter = 0.46;       // of its height, wide
-constexpr double kCharacters = 40.0;      // as wide as the column, room beside the lines included
-constexpr std::size_t kMostAlarms = 20;
+constexpr double kCharacter = 0.46;       // width of a character relative to its height
+constexpr double kCharacters = 40.0;      // width of the column, spacing beside the lines included
+constexpr std::size_t kMaxAlarms = 20;
 
 std::vector<std::string> wrapped(const std::vector<std::string>& lines) {
   std::vector<std::string> all;
@@ -66,7 +66,7 @@ void LoopHealth::take(const LoopStatistics& loop, double wall_time) {
     return l.overruns + l.skipped_steps + l.dropped_snapshots;
   };
   const std::uint64_t before = loop_ ? troubles(*loop_) : troubles(loop);
-  lately_ = troubles(loop) > before ? troubles(loop) - before : 0;  // less: they begin anew
+  lately_ = troubles(loop) > before ? troubles(loop) - before : 0;  // less: restarted
   loop_ = loop;
   heard_at_ = wall_time;
 }
@@ -148,7 +148,7 @@ void drawTwin(const std::vector<Alert>& alerts, const LoopHealth& loop,
   board.linear() = boardAxes();
   MarkerCanvas canvas(markers, "(twin)", board);  // no system's name
   const double height = layout.column_width / (kCharacter * kCharacters);
-  const AlarmList list = alarmList(alerts, kMostAlarms);
+  const AlarmList list = alarmList(alerts, kMaxAlarms);
   TextStack stack(Eigen::Vector3d::Zero(), canvas);
   const int health = loop.severity(wall_time);
   stack.add("loop", wrapped(loop.lines(wall_time)), height,
@@ -158,7 +158,7 @@ void drawTwin(const std::vector<Alert>& alerts, const LoopHealth& loop,
   stack.add("alarms", wrapped(list.info), height, severityColor(Alert::INFO));
   stack.add("alarms", wrapped(list.warning), height, severityColor(Alert::WARNING));
   stack.add("alarms", wrapped(list.danger), height, severityColor(Alert::DANGER));
-  // What a silent monitor said is not what holds now.
+  // After a timeout of the monitor its last alerts may no longer be active.
   stack.add("title", {silence.empty() ? list.title : "alarms unknown, last: " + list.title},
             1.2 * height, severityColor(alerts, kWordsColor));
 }

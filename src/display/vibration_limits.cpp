@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "monitoring/alarm_settings_reader.h"
 #include "transport/ros_parameters.h"
 #include "whirl_twin/Alert.h"
@@ -50,7 +50,7 @@ AlarmSettings settingsOfMonitor(const std::string& node, const std::vector<std::
     return {};
   }
   YAML::Node given = toYaml(all);
-  YAML::Node levels(YAML::NodeType::Map);  // what is drawn of them
+  YAML::Node levels(YAML::NodeType::Map);  // the parameters that are drawn
   for (const char* key : {"amplitude", "zones", "log_decrement_warning", "decay_rate_alarm"}) {
     if (given[key]) {
       levels[key] = given[key];
@@ -58,8 +58,8 @@ AlarmSettings settingsOfMonitor(const std::string& node, const std::vector<std::
   }
   try {
     return readAlarmSettings(levels, node, rotors, {});
-  } catch (const Refusal&) {
-    return {};  // the monitor itself says what is wrong
+  } catch (const InputError&) {
+    return {};  // the monitor itself reports the error
   }
 }
 

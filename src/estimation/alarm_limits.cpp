@@ -5,7 +5,8 @@
 namespace whirl_twin {
 
 double normalLimit(double probability) {
-  // Newton on the logarithm of the tail, which is concave, from beyond the root: Q(z) < e^(-z^2/2).
+  // Newton's method on the logarithm of the tail, which is concave, from beyond the root: Q(z) <
+  // e^(-z^2/2).
   constexpr double kRoot2 = 1.4142135623730951;
   constexpr double kRoot2Pi = 2.5066282746310002;
   double z = std::sqrt(-2.0 * std::log(probability));
@@ -28,9 +29,9 @@ double meanSquareLimit(std::size_t count, double z) {
 }
 
 double cumulativeSumLimit(double allowance, double run_length) {
-  constexpr double kOvershoot = 1.166;  // 2 * 0.583, of the sum beyond its limit
+  constexpr double kOvershoot = 1.166;  // 2 * 0.583, mean overshoot of the sum
   const double aim = 2.0 * allowance * allowance * run_length;
-  // e^y - 1 - y rises from 0, and is above y^2/2 and above aim where y = 2 ln(1 + aim) + 2.
+  // e^y - 1 - y increases from 0, and exceeds y^2/2 and aim at y = 2 ln(1 + aim) + 2.
   double low = 0.0;
   double high = std::fmin(std::sqrt(2.0 * aim), 2.0 * std::log1p(aim) + 2.0);
   for (int i = 0; i < 60; ++i) {

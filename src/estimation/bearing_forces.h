@@ -1,6 +1,6 @@
-// What the bearings of a rotor bear, as rows over its coordinates and rates: of a flexible rotor's
-// bearings by eight coefficients. Those whose coefficients go by tables over the speed, that stand
-// on pedestals or move a mass along, and journal bearings, are left out.
+// Bearing forces of a rotor as linear functions of its coordinates and rates: bearings of flexible
+// rotors with eight coefficients. Excluded: bearings with coefficient tables over the speed, on
+// pedestals or with an added mass, and journal bearings.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace whirl_twin {
 
-/// Force on the shaft [N]: x.dot(state), y.dot(state), of coordinates and rates [2 dof].
+/// Force on the shaft [N]: x.dot(state), y.dot(state), with state = coordinates and rates [2 dof].
 struct BearingForce {
   std::string name;  ///< as in the scene, `bearings[0]`
   Eigen::VectorXd x, y;

@@ -1,4 +1,4 @@
-// What `twin fit` is asked: which numbers of a scene's system to find, from which measured runs.
+// The study of `twin fit`: which parameters of a scene's system to find, from which measured runs.
 #pragma once
 
 #include <cstddef>
@@ -12,32 +12,32 @@
 
 namespace whirl_twin {
 
-/// A delay of a measured input that a fit looks for lies within this [s].
+/// Upper bound of a fitted delay of a measured input [s].
 inline constexpr double kMaxInputDelay = 1.0;
 
-/// A number that is given, or found.
+/// A number that is given or fitted.
 struct GivenOrFitted {
   double value = 0.0;
   bool fitted = false;
-  bool each_run = false;  ///< found for each run by itself, of those that are validated, too
+  bool each_run = false;  ///< fitted for each run, also for validation runs
 };
 
-/// A column that measures a coordinate or a rate of the system: column = scale * state + offset.
+/// A column that measures a coordinate or rate of the system: column = scale * state + offset.
 struct MeasuredChannel {
   std::string name;       ///< `theta1`, `theta1_rate`
-  std::size_t state = 0;  ///< place among the coordinates, and the rates after them
+  std::size_t state = 0;  ///< index: coordinates first, then rates
   std::string unit;       ///< "rad", "m", "rad/s", "m/s"
   std::string column;
   GivenOrFitted offset{0.0};
   GivenOrFitted scale{1.0};
-  /// Standard deviation [unit] that residuals are weighed by: all alike where none is given.
+  /// Standard deviation [unit] as weight of the residuals; 1 for all if none is given.
   double deviation = 1.0;
-  /// Of an angle: whether it counts within a turn; where that is not said the rows show it
-  /// (turns.h).
+  /// Of an angle: whether it is wrapped to one turn; if not specified, found from the rows
+  /// (run_units.h).
   std::optional<bool> wrap = std::nullopt;
 };
 
-/// A column that says what acted on an input: input(t) = scale * column(t - delay) + offset.
+/// A column that measures an input: input(t) = scale * column(t - delay) + offset.
 struct MeasuredInput {
   std::string name;       ///< `torque1`
   std::size_t place = 0;  ///< among the inputs of the model
@@ -45,18 +45,18 @@ struct MeasuredInput {
   GivenOrFitted offset{0.0};
   GivenOrFitted scale{1.0};
   GivenOrFitted delay{0.0};  ///< [s]
-  bool hold = false;         ///< from each row to the next; else linear
+  bool hold = false;         ///< zero-order hold from row to row; else linear
 };
 
 struct StudyRun {
-  std::string file;  ///< as the study names it
+  std::string file;  ///< path as in the study
   bool train = false;
   std::vector<MeasuredChannel> measured;
   std::vector<MeasuredInput> inputs;
   MeasuredRun data;
 };
 
-/// A parameter of the system that is found.
+/// A fitted parameter of the system.
 struct FittedParameter {
   std::string path;  ///< `mass1`, `bearings[0].kxx`
   double start = 0.0;
@@ -71,10 +71,10 @@ struct FitStudy {
   std::string system;
   std::vector<StudyRun> runs;
   double window = 1.0;          ///< [s]; infinite: a run is one window
-  bool start_estimated = true;  ///< of each window, else as measured
+  bool start_estimated = true;  ///< of each window; else as measured
   std::vector<FittedParameter> fit;
-  bool validate_only = false;   ///< nothing but the starts of windows is found
-  std::optional<double> huber;  ///< residuals beyond, in deviations, count linearly
+  bool validate_only = false;   ///< only the starts of windows are fitted
+  std::optional<double> huber;  ///< residuals beyond, in standard deviations, count linearly
 
   const SystemSpec& spec() const { return scene.systems.front(); }
 };

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "estimation/run_units.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "scene/built_scene.h"
 #include "scene/node_reader.h"
 #include "scene/part_of_scene.h"
@@ -20,21 +20,21 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kMostRuns = 1000;
-constexpr double kShortestWindow = 0.01;  // s
-constexpr double kLongestWindow = 1.0e5;  // s
+constexpr std::size_t kMaxRuns = 1000;
+constexpr double kMinWindow = 0.01;   // s
+constexpr double kMaxWindow = 1.0e5;  // s
 
 class StudyReader {
  public:
   StudyReader(const std::string& path, bool validate_only, const RunReader& read)
-      : folder_(std::filesystem::path(path).parent_path()), complaints_(path), read_(read) {
+      : folder_(std::filesystem::path(path).parent_path()), diagnostics_(path), read_(read) {
     study_.source = path;
     study_.validate_only = validate_only;
   }
 
   FitStudy read(const YAML::Node& tree) {
     const MapReader map(tree, "", {"scene", "system", "runs", "windows", "fit", "huber"},
-                        "key of a study", complaints_);
+                        "key of a study", diagnostics_);
     if (map.usable()) {
       readSystem(map);
       readWindows(map);
@@ -46,8 +46,8 @@ class StudyReader {
         study_.huber = map.number("huber", Range::kPositive, "deviations", 1.0);
       }
     }
-    if (!complaints_.all().empty()) {
-      throw Refusal(fmt::format("{}", fmt::join(complaints_.all(), "\ntwin: ")));
+    if (!diagnostics_.all().empty()) {
+      throw InputError(fmt::format("{}", fmt::join(diagnostics_.all(), "\ntwin: ")));
     }
     return study_;
   }
@@ -56,10 +56,10 @@ class StudyReader {
   void readSystem(const MapReader& map) {
     for (const char* key : {"scene", "system"}) {
       if (!map.has(key)) {
-        complaints_.add(map.key(key),
-                        fmt::format("missing; must be {}", std::string(key) == "scene"
-                                                               ? "the file of a scene"
-                                                               : "the name of one of its systems"));
+        diagnostics_.add(map.key(key), fmt::format("missing; must be {}",
+                                                   std::string(key) == "scene"
+                                                       ? "the file of a scene"
+                                                       : "the name of one of its systems"));
       }
     }
     const std::string scene = map.text("scene", "");
@@ -68,7 +68,7 @@ class StudyReader {
       return;
     }
     study_.scene_path = (folder_ / scene).string();
-    Scene all = readSceneFile(study_.scene_path);  // its errors are all its own
+    Scene all = readSceneFile(study_.scene_path);  // reports all its errors
     std::vector<std::string> names;
     for (const SystemSpec& system : all.systems) {
       names.push_back(system.name);
@@ -76,25 +76,25 @@ class StudyReader {
     const auto place = std::find(names.begin(), names.end(), study_.system);
     if (place == names.end()) {
       if (!study_.system.empty()) {
-        complaints_.add(map.key("system"),
-                        fmt::format("the scene has no {}{}", whirl_twin::quoted(study_.system),
-                                    hint(study_.system, names)));
+        diagnostics_.add(map.key("system"),
+                         fmt::format("the scene has no {}{}", whirl_twin::inQuotes(study_.system),
+                                     hint(study_.system, names)));
       }
       return;
     }
     SystemSpec system = all.systems[static_cast<std::size_t>(place - names.begin())];
     const std::size_t drive = all.driveOf(system);
     if (system.ensemble.count > 0) {
-      complaints_.add(map.key("system"),
-                      "must not be an ensemble: remove count to fit the nominal system");
+      diagnostics_.add(map.key("system"),
+                       "must not be an ensemble: remove count to fit the nominal system");
       return;
     }
     if (drive < all.drives.size() && all.drives[drive].motor) {
-      complaints_.add(map.key("system"),
-                      "must not be driven by a motor: use a drive or a constant speed");
+      diagnostics_.add(map.key("system"),
+                       "must not be driven by a motor: use a drive or a constant speed");
       return;
     }
-    // What its controllers gave is measured, or it was not there.
+    // The outputs of its controllers are measured inputs, or there were none.
     all = partOf(all, {static_cast<std::size_t>(place - names.begin())});
     all.controllers.clear();
     all.systems = {std::move(system)};
@@ -107,7 +107,7 @@ class StudyReader {
       return;
     }
     const MapReader windows(map.at("windows"), map.key("windows"), {"length", "start"},
-                            "key of windows", complaints_);
+                            "key of windows", diagnostics_);
     if (!windows.usable()) {
       return;
     }
@@ -118,10 +118,10 @@ class StudyReader {
       study_.window = std::numeric_limits<double>::infinity();
     } else if (windows.has("length")) {
       const auto number = parseQuantity(windows.text("length", ""), "s");
-      if (!number || *number < kShortestWindow || *number > kLongestWindow) {
-        complaints_.add(windows.key("length"),
-                        fmt::format("must be from {:g} to {:g} s, or `all`, found {}",
-                                    kShortestWindow, kLongestWindow, shown(windows.at("length"))));
+      if (!number || *number < kMinWindow || *number > kMaxWindow) {
+        diagnostics_.add(windows.key("length"),
+                         fmt::format("must be from {:g} to {:g} s, or `all`, found {}", kMinWindow,
+                                     kMaxWindow, shown(windows.at("length"))));
       } else {
         study_.window = *number;
       }
@@ -130,10 +130,10 @@ class StudyReader {
 
   void readRuns(const MapReader& map) {
     const YAML::Node runs = map.at("runs");
-    if (!runs.IsDefined() || !runs.IsSequence() || runs.size() == 0 || runs.size() > kMostRuns) {
-      complaints_.add(
+    if (!runs.IsDefined() || !runs.IsSequence() || runs.size() == 0 || runs.size() > kMaxRuns) {
+      diagnostics_.add(
           map.key("runs"),
-          fmt::format("must be a list of 1 to {} runs, found {}", kMostRuns,
+          fmt::format("must be a list of 1 to {} runs, found {}", kMaxRuns,
                       runs.IsDefined() && runs.IsSequence() ? fmt::format("{} entries", runs.size())
                                                             : shown(runs)));
       return;
@@ -142,7 +142,7 @@ class StudyReader {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const MapReader run(runs[i], fmt::format("{}[{}]", map.key("runs"), i),
                           {"file", "use", "time", "measured", "inputs"}, "key of a run",
-                          complaints_);
+                          diagnostics_);
       if (run.usable()) {
         readRun(run, files);
       }
@@ -150,27 +150,27 @@ class StudyReader {
     const bool any = std::any_of(study_.runs.begin(), study_.runs.end(),
                                  [](const StudyRun& run) { return run.train; });
     if (!any && !study_.validate_only && study_.runs.size() == runs.size()) {
-      complaints_.add(map.key("runs"),
-                      "must have a run with `use: train`, or be called with --validate-only");
+      diagnostics_.add(map.key("runs"),
+                       "must have a run with `use: train`, or be called with --validate-only");
     }
   }
 
   void readRun(const MapReader& map, std::set<std::string>& files) {
-    const std::size_t before = complaints_.all().size();
+    const std::size_t before = diagnostics_.all().size();
     StudyRun run;
     run.file = map.text("file", "");
     if (run.file.empty()) {
-      complaints_.add(map.key("file"),
-                      "missing; must be a file of comma-separated values, an LCM log or a rosbag");
+      diagnostics_.add(map.key("file"),
+                       "missing; must be a file of comma-separated values, an LCM log or a rosbag");
     } else if (!files.insert(run.file).second) {
-      complaints_.add(map.key("file"), fmt::format("duplicate: {} is already in the list",
-                                                   whirl_twin::quoted(run.file)));
+      diagnostics_.add(map.key("file"), fmt::format("duplicate: {} is already in the list",
+                                                    whirl_twin::inQuotes(run.file)));
     }
     run.train = map.choice("use", {"train", "validate"}, "the use of a run", "train") == "train";
     std::vector<std::string> columns;
     readMeasured(map, run, columns);
     readInputs(map, run, columns);
-    if (complaints_.all().size() != before) {
+    if (diagnostics_.all().size() != before) {
       return;
     }
     try {
@@ -181,8 +181,8 @@ class StudyReader {
         requireUse(run, study_.window);
       }
       study_.runs.push_back(std::move(run));
-    } catch (const Refusal& error) {
-      complaints_.add(map.key("file"), fmt::format("{}: {}", printable(run.file), error.what()));
+    } catch (const InputError& error) {
+      diagnostics_.add(map.key("file"), fmt::format("{}: {}", printable(run.file), error.what()));
     }
   }
 
@@ -195,17 +195,17 @@ class StudyReader {
       }
     }
     const MapReader measured(map.at("measured"), map.key("measured"), known,
-                             "coordinate or rate of the system", complaints_);
+                             "coordinate or rate of the system", diagnostics_);
     if (!measured.usable()) {
       return;
     }
     if (measured.names().empty()) {
-      complaints_.add(map.key("measured"), "must name a coordinate and its column");
+      diagnostics_.add(map.key("measured"), "must name a coordinate and its column");
     }
     for (const std::string& name : measured.names()) {
       const auto place = std::find(known.begin(), known.end(), name);
       if (place == known.end()) {
-        continue;  // which has been said
+        continue;  // reported above
       }
       MeasuredChannel channel;
       channel.name = name;
@@ -221,7 +221,7 @@ class StudyReader {
           channel.wrap =
               entry->choice("wrap", {"true", "false"}, "true or false", "true") == "true";
           if (channel.unit != "rad") {
-            complaints_.add(entry->key("wrap"), "needs an angle");
+            diagnostics_.add(entry->key("wrap"), "needs an angle");
           }
         }
       }
@@ -239,7 +239,7 @@ class StudyReader {
       known.push_back(input.name);
     }
     const MapReader inputs(map.at("inputs"), map.key("inputs"), known, "input of the system",
-                           complaints_);
+                           diagnostics_);
     if (!inputs.usable()) {
       return;
     }
@@ -247,7 +247,7 @@ class StudyReader {
       const auto place = std::find(known.begin(), known.end(), name);
       if (place == known.end()) {
         if (known.empty()) {
-          complaints_.add(inputs.key(name), "the system has no inputs");
+          diagnostics_.add(inputs.key(name), "the system has no inputs");
         }
         continue;
       }
@@ -262,8 +262,8 @@ class StudyReader {
         requireScale(*entry, input.scale);
         input.delay = givenOrFitted(*entry, "delay", "s", 0.0);
         if (std::fabs(input.delay.value) > kMaxInputDelay) {
-          complaints_.add(entry->key("delay"),
-                          fmt::format("must be within {:g} s", kMaxInputDelay));
+          diagnostics_.add(entry->key("delay"),
+                           fmt::format("must be within {:g} s", kMaxInputDelay));
         }
         input.hold = entry->choice("hold", {"true", "false"}, "true or false", "false") == "true";
       }
@@ -272,25 +272,25 @@ class StudyReader {
     }
   }
 
-  /// A column by its name, or in a map with more; the map, where there is one.
+  /// A column given by its name, or by a map with more settings; returns the map, if any.
   std::optional<MapReader> column(const MapReader& map, const std::string& name,
                                   const std::vector<std::string>& known, std::string& column) {
     const YAML::Node node = map.at(name);
     if (node.IsScalar()) {
       column = node.Scalar();
     } else {
-      const MapReader entry(node, map.key(name), known, "key of a column", complaints_);
+      const MapReader entry(node, map.key(name), known, "key of a column", diagnostics_);
       if (!entry.usable()) {
         return std::nullopt;
       }
       column = entry.text("column", "");
       if (column.empty()) {
-        complaints_.add(entry.key("column"), "missing; must be the name of a column");
+        diagnostics_.add(entry.key("column"), "missing; must be the name of a column");
       }
       return entry;
     }
     if (column.empty()) {
-      complaints_.add(map.key(name), "must be the name of a column");
+      diagnostics_.add(map.key(name), "must be the name of a column");
     }
     return std::nullopt;
   }
@@ -308,9 +308,9 @@ class StudyReader {
     const auto number =
         map.at(name).IsScalar() ? parseQuantity(map.at(name).Scalar(), unit) : std::nullopt;
     if (!number) {
-      complaints_.add(map.key(name),
-                      fmt::format("must be a finite number of {}, `fit` or `each_run`, found {}",
-                                  unit, shown(map.at(name))));
+      diagnostics_.add(map.key(name),
+                       fmt::format("must be a finite number of {}, `fit` or `each_run`, found {}",
+                                   unit, shown(map.at(name))));
       return {fallback, false};
     }
     return {*number, false};
@@ -318,7 +318,7 @@ class StudyReader {
 
   void requireScale(const MapReader& map, const GivenOrFitted& scale) {
     if (!(scale.value > 0.0)) {
-      complaints_.add(map.key("scale"), "must be > 0");
+      diagnostics_.add(map.key("scale"), "must be > 0");
     }
   }
 
@@ -332,19 +332,19 @@ class StudyReader {
     const state::ParameterChange parameters = built_->parameters();
     if (!map.has("fit")) {
       if (!study_.validate_only) {
-        complaints_.add(map.key("fit"), "missing; must name the parameters to fit");
+        diagnostics_.add(map.key("fit"), "missing; must name the parameters to fit");
       }
       return;
     }
     const MapReader fit(map.at("fit"), map.key("fit"), parameters.names, "parameter of the system",
-                        complaints_);
+                        diagnostics_);
     if (!fit.usable()) {
       return;
     }
     for (const std::string& path : fit.names()) {
       const std::optional<double> start = built_->parameter(path);
       if (!start) {
-        continue;  // which has been said
+        continue;  // reported above
       }
       FittedParameter parameter;
       parameter.path = path;
@@ -352,7 +352,7 @@ class StudyReader {
       const YAML::Node node = fit.at(path);
       if (!node.IsNull()) {
         const MapReader bounds(node, fit.key(path), {"min", "max", "start"},
-                               "key of a parameter to fit", complaints_);
+                               "key of a parameter to fit", diagnostics_);
         if (!bounds.usable()) {
           continue;
         }
@@ -360,11 +360,11 @@ class StudyReader {
         parameter.most = bounds.number("max", Range::kAny, "", parameter.most);
         parameter.start = bounds.number("start", Range::kAny, "", parameter.start);
         if (!(parameter.least < parameter.most)) {
-          complaints_.add(fit.key(path), "min must be < max");
+          diagnostics_.add(fit.key(path), "min must be < max");
         } else if (parameter.start < parameter.least || parameter.start > parameter.most) {
-          complaints_.add(fit.key(path),
-                          fmt::format("must start within its bounds {1:g} to {2:g}, found {0:g}",
-                                      parameter.start, parameter.least, parameter.most));
+          diagnostics_.add(fit.key(path),
+                           fmt::format("must start within its bounds {1:g} to {2:g}, found {0:g}",
+                                       parameter.start, parameter.least, parameter.most));
         }
       }
       study_.fit.push_back(parameter);
@@ -374,13 +374,13 @@ class StudyReader {
                          [](const auto& c) { return c.offset.fitted || c.scale.fitted; });
     });
     if (study_.fit.empty() && !sensors && !study_.validate_only && fit.names().empty()) {
-      complaints_.add(map.key("fit"),
-                      "must name a parameter to fit, or be called with --validate-only");
+      diagnostics_.add(map.key("fit"),
+                       "must name a parameter to fit, or be called with --validate-only");
     }
   }
 
   std::filesystem::path folder_;
-  Complaints complaints_;
+  Diagnostics diagnostics_;
   const RunReader& read_;
   FitStudy study_;
   SharedSystem built_;

@@ -1,4 +1,4 @@
-// Reads what `twin fit` is asked.
+// Reads the study of `twin fit`.
 #pragma once
 
 #include <functional>
@@ -13,10 +13,10 @@ namespace whirl_twin {
 using RunReader = std::function<MeasuredRun(const std::string&, const std::string&,
                                             const std::vector<std::string>&)>;
 
-/// The study of a YAML file, its scene, and its runs; their paths count from the folder of the
-/// study. Throws Refusal with everything that is wrong with the study, its scene or its runs, each
-/// "PATH: key: what was expected, what was found"; a system on a motor or with an ensemble cannot
-/// be fitted.
+/// Reads a study from a YAML file, with its scene and its runs; their paths are relative to the
+/// folder of the study. Throws InputError with all errors of the study, its scene and its runs,
+/// each "PATH: key: what was expected, what was found"; a system on a motor or with an ensemble
+/// cannot be fitted.
 FitStudy readFitStudy(const std::string& path, bool validate_only,
                       const RunReader& read = readMeasuredRun);
 

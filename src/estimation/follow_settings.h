@@ -1,5 +1,5 @@
-// What a follower is told beside its scene: which parameters to follow, how far the machine may
-// depart from its model, how often a false alarm may be.
+// Settings of a state estimator beside its scene: which parameters to estimate, how far the machine
+// may deviate from its model, the rate of false alarms.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -14,18 +14,18 @@
 
 namespace whirl_twin {
 
-/// A number of which more is found out on the way.
-struct FollowedNumber {
-  double deviation = 0.0;  ///< standard deviation at the start; 0: known, not followed
-  double walk = 0.0;       ///< its own change in a time t has the standard deviation walk sqrt(t)
+/// A number to be estimated.
+struct EstimatorNumber {
+  double deviation = 0.0;  ///< standard deviation at the start; 0: known, not estimated
+  double walk = 0.0;       ///< random walk: standard deviation walk sqrt(t) in a time t
 };
 
 struct ParameterSettings {
   std::string path;
-  FollowedNumber number;  ///< in parts of its value, of a negative one of its size
+  EstimatorNumber number;  ///< relative to its value; of a negative one to its magnitude
 };
 
-/// What acts on an input of a system is measured: scale times what a channel shows, and an offset.
+/// A measured input of a system: scale times the channel's value plus offset.
 struct InputFollowing {
   std::size_t input = 0;  ///< of the system's inputs
   std::string source;     ///< of the Measurement
@@ -33,26 +33,26 @@ struct InputFollowing {
   std::string unit;        ///< of the input
   double scale = 1.0;      ///< [-]
   double offset = 0.0;     ///< in the input's unit
-  double deviation = 0.0;  ///< standard deviation of a sample, in its unit; 0: it is exact
-  bool hold = false;       ///< from sample to sample; else linear
+  double deviation = 0.0;  ///< standard deviation of a sample, in its unit; 0: exact
+  bool hold = false;       ///< zero-order hold; else linear
 };
 
 struct SystemFollowing {
   std::vector<ParameterSettings> parameters;
   std::vector<InputFollowing> inputs;
-  /// Accelerations that the model has not, white: [rad/s^2/sqrt(Hz)] or [m/s^2/sqrt(Hz)].
+  /// White accelerations that are not in the model: [rad/s^2/sqrt(Hz)] or [m/s^2/sqrt(Hz)].
   double disturbance = 0.0;
-  FollowedNumber unbalance;  ///< [kg m], at each station, beside the model's own
+  EstimatorNumber unbalance;  ///< [kg m], at each station, in addition to the model's
   std::map<std::string, double>
-      offset;            ///< deviation of a channel's, "source/channel", in its unit
-  double run_out = 0.0;  ///< [m], deviation of that under each displacement probe
+      offset;            ///< standard deviation of a channel's, "source/channel", in its unit
+  double run_out = 0.0;  ///< [m], standard deviation under each displacement probe
 };
 
 struct FollowSettings {
-  std::map<std::string, SystemFollowing> systems;  ///< by their names; others: as by default
-  double false_alarms = 0.02;                      ///< an hour, of each kind
-  /// [s], that a sample waits for those of slower sources. Else a quarter of a second and the
-  /// longest block of the scene's sensors.
+  std::map<std::string, SystemFollowing> systems;  ///< by name; others: the defaults
+  double false_alarms = 0.02;                      ///< per hour, of each kind
+  /// Reordering delay [s]: how long a sample waits for those of slower sources. Default: a quarter
+  /// of a second plus the longest block of the scene's sensors.
   std::optional<double> patience;
 
   const SystemFollowing& of(const std::string& system) const {
@@ -62,28 +62,28 @@ struct FollowSettings {
   }
 };
 
-// Reads what a follower is told beside its scene, a YAML map:
+// Settings of a state estimator beside its scene, a YAML map:
 //
 //   systems:
 //     pendulum:
 //       disturbance: 0.05                       # rad/s^2/sqrt(Hz), of each coordinate
 //       parameters:
-//         damping1: 0.5                         # what may be wrong with it, in parts of its value
-//         coulomb1: {deviation: 0.5, walk: 1e-3}  # and what it changes by, in a second
-//       inputs:                                 # what acts on them, where it is measured
+//         damping1: 0.5                         # standard deviation, relative to its value
+//         coulomb1: {deviation: 0.5, walk: 1e-3}  # and random walk, 1/sqrt(s)
+//       inputs:                                 # measured inputs
 //         torque1: motors/tau1                  # SOURCE/CHANNEL
 //         torque2: {channel: motors/tau2, scale: 0.9, offset: 0.01, deviation: 0.02, hold: true}
-//       offsets: {encoders/theta1: 0.01}        # rad, what zeros may be off by; or {encoders:
+//       offsets: {encoders/theta1: 0.01}        # rad, standard deviation; or {encoders:
 //                                               # {theta1: 0.01}}, as on a parameter server
 //     rotor:
-//       unbalance: {deviation: 1e-4, walk: 0.0}   # kg m, beside the scene's, at each station
+//       unbalance: {deviation: 1e-4, walk: 0.0}   # kg m, added to the scene's, per station
 //       run_out: 5e-6                           # m, under each displacement probe
-//   false_alarms: 0.02                          # an hour
-//   patience: 0.25                              # s, that samples wait for slower sources; else
-//                                               # 0.25 s and the longest block of the sensors
+//   false_alarms: 0.02                          # per hour
+//   patience: 0.25                              # s, reordering delay; default:
+//                                               # 0.25 s + the longest block of the sensors
 
-/// Of the systems, parameters and channels of the scene. Throws Refusal with every complaint, each
-/// with `source` and key before it.
+/// Settings of the systems, parameters and channels of the scene. Throws InputError with all
+/// errors, each with `source` and key as prefix.
 FollowSettings readFollowSettings(const YAML::Node& tree, const std::string& source,
                                   const BuiltScene& scene);
 

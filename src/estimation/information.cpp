@@ -11,11 +11,11 @@ namespace whirl_twin {
 
 namespace {
 
-/// Of the largest eigenvalue: differences that are good to six digits leave some 1e-12 of what
-/// should vanish.
+/// Relative to the largest eigenvalue: differences with six correct digits leave some 1e-12 where
+/// the exact value is 0.
 constexpr double kNothing = 1.0e-11;
 constexpr double kParticipation = 0.1;
-constexpr double kLeastPart = 1.0e-3;  // of a size: less is rounding
+constexpr double kMinPart = 1.0e-3;  // relative to a size: less is rounding
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void NormalEquations::add(const WindowDerivatives& window) {
   Eigen::MatrixXd left = window.by_unknowns;
   Eigen::VectorXd rest = window.residuals;
   if (window.by_start.cols() > 0) {
-    // What a start cannot make good: the part at right angles to what it does.
+    // Projection orthogonal to the effect of the start.
     const PivotedQr qr(window.by_start);
     left -= window.by_start * qr.solve(left);
     rest -= window.by_start * qr.solve(rest);
@@ -43,7 +43,7 @@ double NormalEquations::variance() const {
 }
 
 bool Information::told(Eigen::Index unknown) const {
-  return std::none_of(untold.begin(), untold.end(), [&](const UntoldDirection& direction) {
+  return std::none_of(untold.begin(), untold.end(), [&](const UnidentifiableDirection& direction) {
     return direction.takes_part[static_cast<std::size_t>(unknown)];
   });
 }
@@ -61,7 +61,7 @@ Information information(const NormalEquations& normal, const Eigen::VectorXd& th
   const Eigen::MatrixXd scaled = sizes.asDiagonal() * normal.matrix * sizes.asDiagonal();
   const SymmetricModes<double> modes = symmetricModes(scaled);
 
-  Eigen::MatrixXd known(n, 0);  // directions that are told, in parts
+  Eigen::MatrixXd known(n, 0);  // identifiable directions, relative to sizes
   const auto addKnown = [&](const Eigen::VectorXd& direction) {
     known.conservativeResize(Eigen::NoChange, known.cols() + 1);
     known.col(known.cols() - 1) = direction;
@@ -85,11 +85,11 @@ Information information(const NormalEquations& normal, const Eigen::VectorXd& th
       known.cols() == 0 ? Eigen::MatrixXd::Zero(n, n)
                         : Eigen::MatrixXd(variance * known *
                                           Ldlt(inner).solve(Eigen::MatrixXd(known.transpose())));
-  for (UntoldDirection& direction : result.untold) {
+  for (UnidentifiableDirection& direction : result.untold) {
     for (Eigen::Index i = 0; i < n; ++i) {
       const double part = std::fabs(direction.parts[i]);
       const bool of_value =
-          part >= kLeastPart && part * sizes[i] >= kParticipation * std::fabs(theta[i]);
+          part >= kMinPart && part * sizes[i] >= kParticipation * std::fabs(theta[i]);
       direction.takes_part.push_back(part >= kParticipation ||
                                      (of_value && part > std::sqrt(covariance(i, i))));
     }

@@ -1,5 +1,5 @@
-// What runs tell about the unknowns of a study: deviations, correlations, and the directions in
-// which they tell nothing.
+// Identifiability of the unknowns of a study from its runs: standard deviations, correlations, and
+// unidentifiable directions.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,35 +14,35 @@ struct NormalEquations {
   Eigen::MatrixXd matrix;  ///< J'J [unknowns x unknowns]
   double squares = 0.0;    ///< of the residuals, summed
   Eigen::Index residuals = 0;
-  Eigen::Index starts = 0;  ///< numbers that the starts have taken up
+  Eigen::Index starts = 0;  ///< degrees of freedom used by the starts
 
-  /// Takes the derivatives of a window.
+  /// Adds the derivatives of a window.
   void add(const WindowDerivatives& window);
-  /// Of a residual, from what is left over.
+  /// Variance of a residual, from the remaining sum of squares.
   double variance() const;
 };
 
-/// A combination of unknowns that runs do not tell: they can change together, each by this part of
-/// its own size.
-struct UntoldDirection {
+/// A direction in which the runs do not identify the unknowns: they can change together, each by
+/// this multiple of its size.
+struct UnidentifiableDirection {
   Eigen::VectorXd parts;  ///< the largest is 1 or -1
-  double deviation;       ///< along it, in parts of sizes; infinite: no residual changes at all
-  /// Of each unknown: it changes along it by a tenth of its size, or by a tenth of its value and
-  /// more than it is known to else. Who takes no part is told all the same.
+  double deviation;       ///< along it, relative to the sizes; infinite: no residual changes
+  /// Of each unknown: whether it changes along the direction by a tenth of its size, or by a tenth
+  /// of its value and more than its other uncertainty. Unknowns that take no part are identifiable.
   std::vector<bool> takes_part;
 };
 
 struct Information {
-  Eigen::VectorXd deviation;    ///< standard deviations; NaN where an unknown is not told
-  Eigen::MatrixXd correlation;  ///< of those that are told; NaN elsewhere
-  std::vector<UntoldDirection> untold;
+  Eigen::VectorXd deviation;    ///< standard deviations; NaN: not identifiable
+  Eigen::MatrixXd correlation;  ///< of identifiable unknowns; NaN elsewhere
+  std::vector<UnidentifiableDirection> untold;
 
   bool told(Eigen::Index unknown) const;
 };
 
-/// An unknown is told when it is known better than to its own size (> 0), of residuals of which
-/// only one of `rows_alike` tells anything. Deviations are those of white ones: where residuals are
-/// not white they are too small.
+/// An unknown is identifiable if its standard deviation is below its size (> 0), with only one
+/// independent residual in `rows_alike`. The standard deviations assume white residuals: for
+/// correlated residuals they are too small.
 Information information(const NormalEquations& normal, const Eigen::VectorXd& theta,
                         const Eigen::VectorXd& sizes, double rows_alike);
 

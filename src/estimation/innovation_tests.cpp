@@ -10,26 +10,26 @@ namespace whirl_twin {
 
 namespace {
 
-/// Numbers below which limits are not what they say.
+/// With fewer numbers the limits are inaccurate.
 constexpr std::size_t kMinResiduals = 50;
 
 }  // namespace
 
-ResidualWatch::ResidualWatch(std::size_t channels, const ResidualWatchSettings& settings)
+InnovationTest::InnovationTest(std::size_t channels, const InnovationTestSettings& settings)
     : window_(settings.window), last_(channels, kNaN), begin_(kNaN), newest_(kNaN) {
   const double each = falseAlarmsEach(settings.false_alarms / 4.0, settings.window);
   z_ = normalLimit(std::min(each, 0.5));
 }
 
-void ResidualWatch::restart() {
+void InnovationTest::restart() {
   begin_ = newest_ = kNaN;
   numbers_ = pairs_ = 0;
   squares_ = surest_ = products_ = 0.0;
   std::fill(last_.begin(), last_.end(), kNaN);
 }
 
-bool ResidualWatch::take(double time, const double* innovation, std::size_t channels,
-                         const double* surest) {
+bool InnovationTest::take(double time, const double* innovation, std::size_t channels,
+                          const double* surest) {
   if (time < newest_) {
     restart();
   }
@@ -60,7 +60,7 @@ bool ResidualWatch::take(double time, const double* innovation, std::size_t chan
   return ended;
 }
 
-void ResidualWatch::judge(double time) {
+void InnovationTest::judge(double time) {
   const auto n = static_cast<double>(numbers_);
   const auto pairs = static_cast<double>(pairs_);
   verdict_.time = time;
@@ -68,43 +68,45 @@ void ResidualWatch::judge(double time) {
   verdict_.mismatch = std::max(mean, std::min(surest_ / n, 1.0));
   verdict_.mismatch_least = meanSquareLimit(numbers_, -z_);
   verdict_.mismatch_limit = meanSquareLimit(numbers_, z_);
-  // Of as many squares as there are pairs: the correlation, whatever the size.
+  // Normalized by the squares of as many numbers as there are pairs: the correlation, for any
+  // variance.
   verdict_.whiteness = squares_ > 0.0 ? products_ / pairs / mean : 0.0;
   verdict_.whiteness_limit = z_ / std::sqrt(pairs);
 }
 
 namespace {
 
-constexpr double kUpperEnd = 1.645;          // standard deviations, of a 95 % interval
-constexpr double kMostCorrelated = 0.995;    // of samples
-constexpr double kLeastAllowance = 0.5;      // in standard deviations
-constexpr double kBetterKnown = 0.8;         // of a deviation
-constexpr double kHole = 2.5;                // periods: a rate below one a period makes up to 2
-constexpr double kSameDeviation = 1.0e-3;    // of it, for which limits stay
-constexpr std::int64_t kFewestSamples = 30;  // of a warm-up
-constexpr double kLargestSum = 2.0;          // of a limit: what has returned is forgotten
+constexpr double kUpperEnd = 1.645;        // standard deviations, of a 95 % interval
+constexpr double kMaxCorrelated = 0.995;   // of samples
+constexpr double kMinAllowance = 0.5;      // in standard deviations
+constexpr double kBetterKnown = 0.8;       // ratio of deviations: a new reference is learned
+constexpr double kHole = 2.5;              // periods; less than a sample a period gives up to 2
+constexpr double kSameDeviation = 1.0e-3;  // relative change for which the limits are kept
+constexpr std::int64_t kMinSamples = 30;   // of a warm-up
+constexpr double kMaxSum = 2.0;            // of a limit: bounds the time to return to normal
 
 }  // namespace
 
-DriftWatch::DriftWatch(std::size_t parameters, const DriftWatchSettings& settings)
+CusumDetector::CusumDetector(std::size_t parameters, const CusumDetectorSettings& settings)
     : settings_(settings),
       samples_(
-          std::max(kFewestSamples, static_cast<std::int64_t>(settings.warm_up / settings.period))),
+          std::max(kMinSamples, static_cast<std::int64_t>(settings.warm_up / settings.period))),
       watches_(parameters),
       looked_at_(kNaN) {
-  // Each parameter has two statistics, each with two senses.
+  // Two two-sided statistics per parameter.
   const double statistics = 4.0 * static_cast<double>(std::max<std::size_t>(parameters, 1));
   const double each = falseAlarmsEach(settings.false_alarms / statistics, settings.period);
   run_length_ = 1.0 / each;
   z_ = normalLimit(std::min(each, 0.5));
 }
 
-bool DriftWatch::take(double time, const double* value, const double* deviation) {
-  // Half a thousandth: periods that are no whole number of samples, and rounding.
+bool CusumDetector::take(double time, const double* value, const double* deviation) {
+  // Tolerance of half a thousandth, for rounding and periods that are no multiple of the sample
+  // time.
   if (time >= looked_at_ && time - looked_at_ < settings_.period * (1.0 - 5.0e-4)) {
     return false;
   }
-  // A hole is not the distance that the correlation was learned at.
+  // After a gap the learned correlation does not apply.
   const bool whole = time - looked_at_ < kHole * settings_.period && time > looked_at_;
   looked_at_ = time;
   for (std::size_t i = 0; i < watches_.size(); ++i) {
@@ -129,7 +131,7 @@ bool DriftWatch::take(double time, const double* value, const double* deviation)
   return true;
 }
 
-void DriftWatch::warmUp(Watch& watch, double value, double deviation) const {
+void CusumDetector::warmUp(Watch& watch, double value, double deviation) const {
   WarmUp& w = watch.warm_up;
   if (w.count == 0 || deviation < kBetterKnown * w.deviation) {
     w = WarmUp();
@@ -147,30 +149,30 @@ void DriftWatch::warmUp(Watch& watch, double value, double deviation) const {
   }
 }
 
-void DriftWatch::learn(Watch& watch) const {
+void CusumDetector::learn(Watch& watch) const {
   const WarmUp& w = watch.warm_up;
   const auto n = static_cast<double>(w.count);
   const double mean = w.sum / n;
   const double variance = w.squares / n - mean * mean;
-  // Neither the first value (0, less itself) nor the last has both neighbours.
+  // The first value (0, less itself) and the last have one neighbour only.
   const double lagged =
       (w.products - mean * (2.0 * w.sum - w.last)) / n + (n - 1.0) / n * mean * mean;
   const double seen = variance > 0.0 ? std::clamp(lagged / variance, -1.0, 1.0) : 1.0;
-  // The mean of the samples is one of them: the correlation seen is too small (Kendall, Biometrika
-  // 41, 1954).
+  // Bias correction: the mean is that of the same samples, which makes the correlation too small
+  // (Kendall, Biometrika 41, 1954).
   const double unbiased = std::min(seen + (1.0 + 4.0 * std::max(seen, 0.0)) / n, 1.0);
   const double upper = unbiased + kUpperEnd * std::sqrt((1.0 - unbiased * unbiased) / n);
-  watch.correlation = std::clamp(upper, 0.0, kMostCorrelated);
+  watch.correlation = std::clamp(upper, 0.0, kMaxCorrelated);
   watch.reference = w.first + mean;
   watch.deviation = std::sqrt(w.variances / n);
   const double r = watch.correlation;
   const double told = 0.5 * watch.deviation * watch.deviation * (1.0 - r * r);
-  // What is new where r is larger than the correlation seen: never less than with that.
+  // Variance of the innovations with r above the sample correlation: not less than with the latter.
   const double is_new = std::max(0.0, variance * (1.0 - 2.0 * r * seen + r * r));
   const double upper_end = 1.0 + kUpperEnd / std::sqrt(2.0 * n);
   watch.scatter = std::fmax(1.0, upper_end * std::sqrt(is_new / told));
-  // The scatter about their own mean is smaller by what the mean is uncertain.
-  const double as_seen = std::clamp(unbiased, 0.0, kMostCorrelated);
+  // Bias correction: the scatter about the sample mean is too small by the variance of the mean.
+  const double as_seen = std::clamp(unbiased, 0.0, kMaxCorrelated);
   const double of_mean = (1.0 + as_seen) / ((1.0 - as_seen) * n);
   const double wide = variance / std::fmax(1.0 - of_mean, 0.5);
   watch.spread =
@@ -178,23 +180,23 @@ void DriftWatch::learn(Watch& watch) const {
   watch.learned = true;
 }
 
-void DriftWatch::prepare(Watch& watch, double deviation) const {
+void CusumDetector::prepare(Watch& watch, double deviation) const {
   const double wider = std::fmax(1.0, deviation / watch.deviation);
   const double matters = settings_.matters * std::fabs(watch.reference);
   watch.prepared_for = deviation;
   watch.sigma = watch.spread * wider * watch.deviation;
   watch.distance_limit = std::fmax(z_, 0.5 * matters / watch.sigma);
-  // The time P/q that is forgotten in, and with it the logarithm of the correlation.
-  const double r = std::min(std::pow(watch.correlation, 1.0 / (wider * wider)), kMostCorrelated);
+  // The memory P/q, and with it the logarithm of the correlation, grows with the variance.
+  const double r = std::min(std::pow(watch.correlation, 1.0 / (wider * wider)), kMaxCorrelated);
   watch.now_correlated = r;
   watch.news = watch.scatter * wider * watch.deviation * std::sqrt(0.5 * (1.0 - r * r));
-  watch.allowance = std::fmax(0.5 * matters * (1.0 - r) / watch.news, kLeastAllowance);
+  watch.allowance = std::fmax(0.5 * matters * (1.0 - r) / watch.news, kMinAllowance);
   const double wrong = 2.0 / std::sqrt(static_cast<double>(samples_));
   watch.sum_limit =
       std::fmax(cumulativeSumLimit(watch.allowance - wrong, run_length_), watch.allowance);
 }
 
-void DriftWatch::compare(Watch& watch, double time, double value, double deviation) const {
+void CusumDetector::compare(Watch& watch, double time, double value, double deviation) const {
   if (std::fabs(deviation - watch.prepared_for) > kSameDeviation * deviation) {
     prepare(watch, deviation);
   }
@@ -210,13 +212,13 @@ void DriftWatch::compare(Watch& watch, double time, double value, double deviati
     if (total <= 0.0) {
       since = time - settings_.period;
     }
-    total = std::clamp(total + news - watch.allowance, 0.0, kLargestSum * watch.sum_limit);
+    total = std::clamp(total + news - watch.allowance, 0.0, kMaxSum * watch.sum_limit);
   };
   add(watch.up, watch.up_since, w);
   add(watch.down, watch.down_since, -w);
 }
 
-void DriftWatch::tell(double time) {
+void CusumDetector::tell(double time) {
   drift_ = Drift();
   double nearest = -1.0;
   for (std::size_t i = 0; i < watches_.size(); ++i) {

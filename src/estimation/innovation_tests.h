@@ -1,21 +1,22 @@
-// Whether what is measured is what the model predicts, no better and no worse: the innovations of a
-// filter, each over the deviation that the filter expects of it, are independent standard normal
-// numbers if the model is the machine. Over windows one after the other this looks at
+// Consistency test of a filter's innovations: normalized by their predicted standard deviation they
+// are independent standard normal numbers if the model matches the machine. Tested over consecutive
+// windows:
 //
-//   mismatch   the mean of their squares; of n numbers it is chi-squared over n about 1
-//   whiteness  sum e_k e_(k-1) / sum e_k^2, channel by channel along time; about 0 with a deviation
-//              of 1/sqrt(n) of n pairs, tails lighter than normal
+//   mismatch   normalized innovation squared (NIS): the mean of their squares; for n numbers
+//              chi-squared over n, about 1
+//   whiteness  sum e_k e_(k-1) / sum e_k^2, channel by channel along time; about 0 with a standard
+//              deviation of 1/sqrt(n) for n pairs, tails lighter than normal
 //
-// with limits from a rate of false alarms: half of it to each of the two, and of a half again half
-// to each end. What is too large has forces or noise that the model has not, what is too small has
-// less noise than it was told, and what is not white is predicted wrongly in a way that lasts.
+// The limits follow from a rate of false alarms: half of it for each of the two, and half of that
+// for each end. Too large: forces or noise that are not in the model. Too small: less noise than
+// specified. Not white: persistent errors of the prediction.
 //
-// A part of what is expected may be an allowance, as for a shaft whose angle is off by as much for
-// a while: residuals that are smaller by no more than the allowance are no mismatch. The mean of
-// the squares is then 1, or as far below as without it.
+// A part of the predicted deviation may be an allowance, such as for an uncertain shaft angle that
+// is off for a while: residuals that are smaller by no more than the allowance count as consistent.
+// The mean of the squares is then 1, or as far below 1 as without the allowance.
 //
-// It assumes that a window's numbers are independent, among channels of one instant, too: those of
-// several channels come one after the other (sequential updates), or from nu' S^-1 nu's root.
+// Assumes that a window's numbers are independent, also among the channels of one instant: from
+// sequential updates of several channels, or from the square root of nu' S^-1 nu.
 #pragma once
 
 #include <cstddef>
@@ -25,19 +26,19 @@
 
 namespace whirl_twin {
 
-struct ResidualWatchSettings {
-  double window = 1.0;          ///< [s]; longer where a window has too few numbers
-  double false_alarms = 0.005;  ///< [1/h], of all its limits together
+struct InnovationTestSettings {
+  double window = 1.0;          ///< [s]; longer if it has too few numbers
+  double false_alarms = 0.005;  ///< [1/h], of all limits together
 };
 
-class ResidualWatch {
+class InnovationTest {
  public:
-  /// Of at most so many channels (a complex innovation is two).
-  explicit ResidualWatch(std::size_t channels, const ResidualWatchSettings& settings = {});
+  /// Maximum number of channels (a complex innovation counts as two).
+  explicit InnovationTest(std::size_t channels, const InnovationTestSettings& settings = {});
 
   struct Verdict {
-    double time = std::numeric_limits<double>::quiet_NaN();  ///< [s], where its window ended
-    // [-]; NaN before the first window has ended
+    double time = std::numeric_limits<double>::quiet_NaN();  ///< [s], end of its window
+    // [-]; NaN before the end of the first window
     double mismatch = std::numeric_limits<double>::quiet_NaN();
     double mismatch_least = std::numeric_limits<double>::quiet_NaN();
     double mismatch_limit = std::numeric_limits<double>::quiet_NaN();
@@ -49,13 +50,12 @@ class ResidualWatch {
   };
 
   // Real-time safe:
-  /// The normalised innovations of an instant [s], one a channel, at most as many as there are;
-  /// NaN: the channel had none. An instant before the last one begins anew. True where it has ended
-  /// a window.
-  /// surest: likewise, over the deviations without the allowance in them; none: the same.
+  /// The normalized innovations of an instant [s], one per channel, not more than the number of
+  /// channels; NaN: the channel had none. An instant before the last one restarts the test. True at
+  /// the end of a window. surest: the innovations normalized without the allowance; none: the same.
   bool take(double time, const double* innovation, std::size_t channels,
             const double* surest = nullptr);
-  /// The present window begins anew, and its last instant is forgotten; the verdict stays.
+  /// Restarts the current window and forgets its last instant; the verdict is kept.
   void restart();
   /// Of the last window.
   const Verdict& verdict() const { return verdict_; }
@@ -76,73 +76,72 @@ class ResidualWatch {
   Verdict verdict_;
 };
 
-// Whether a parameter that a filter estimates has become another, by how far its estimate x has
-// gone from a reference x0, learned in a warm-up of n samples. Two statistics, each for both
-// senses:
+// Detects a changed parameter from the distance of its estimate x to a reference x0, the mean of n
+// samples of a warm-up. Two statistics, both two-sided:
 //
 //   distance   |x_k - x0| / s0, with s0^2 = max(P, scatter of the warm-up) (1 + 1/n')
-//   sum        a cumulative sum (cusum) of what is new in a sample,
+//   sum        cumulative sum (CUSUM) of the innovation of each sample,
 //              w_k = ((x_k - x0) - r (x_(k-1) - x0)) / s
 //              up_k = max(0, up_(k-1) + w_k - a),   down_k = max(0, down_(k-1) - w_k - a)
 //
-// Estimates of a filter are strongly correlated in time. One that lets a parameter walk (process
-// noise q) forgets with the time P/q, P = deviation^2. Where the parameter in truth stands still,
-// its estimate wanders about it as an autoregressive process of first order with the variance P/2
-// (scalar filter at rest: gain K = P/R, error e' = -K e + K v, so E e^2 = K R/2), and samples a
-// period T apart are correlated by r = e^(-T q/P). So
+// Estimates of a filter are strongly correlated in time. A filter with a random walk of the
+// parameter (process noise q) has the memory P/q, P = deviation^2. If the true parameter is
+// constant, its estimate is an autoregressive process of first order about it with the variance P/2
+// (scalar filter in steady state: gain K = P/R, error e' = -K e + K v, so E e^2 = K R/2), and
+// samples a period T apart have the correlation r = e^(-T q/P). Therefore:
 //
-// - the limit of the distance is that of every sample for itself, which the rate of all of them
-//   together cannot exceed, however they are correlated (Boole's inequality). P instead of P/2 is a
-//   margin for filters that are too sure. n' = n (1 - r)/(1 + r) samples of the warm-up are
-//   independent. It is what finds a drift soon where the filter remembers long.
-// - the sum is of what is new only, which is white (Alwan & Roberts, J. Bus. Econ. Stat. 6, 1988,
-//   "special-cause chart"): a sum of the estimates themselves would alarm by their correlation
-//   alone. r and s are learned as upper ends of their 95 % intervals, s not below what P/2 gives.
-//   Its limit is that of a run length (alarm_limits.h, Siegmund), for an allowance less 2/sqrt(n),
-//   that x0 may be wrong by. It is what finds a small drift where the filter forgets soon.
+// - The limit of the distance is that of each sample by itself, which bounds the rate of all
+//   samples for any correlation (Boole's inequality). P instead of P/2 is a margin for
+//   overconfident filters. n' = n (1 - r)/(1 + r) samples of the warm-up are independent. The
+//   distance detects a drift soon if the memory of the filter is long.
+// - The sum uses the innovations only, which are white (Alwan & Roberts, J. Bus. Econ. Stat. 6,
+//   1988, "special-cause chart"): a sum of the estimates themselves would alarm because of their
+//   correlation. r and s are learned as upper ends of their 95 % intervals, s not below the value
+//   for P/2. The limit follows from a run length (alarm_limits.h, Siegmund) for an allowance
+//   reduced by 2/sqrt(n), the uncertainty of x0. The sum detects a small drift if the memory is
+//   short.
 //
-// A change that matters, matters |x0|, is found; half of it is the least distance to be told and
-// the allowance a, which is not below 1/2, as Page has it (Biometrika 41, 1954). The limit of the
-// sum is not below a: what matters less has to last.
+// A relevant change, matters |x0|, is detected; half of it is the smallest reported distance and
+// the allowance a, which is not below 1/2 (Page, Biometrika 41, 1954). The limit of the sum is not
+// below a: smaller changes must last.
 //
-// The warm-up begins anew until the deviation has stopped falling. Where the deviation grows later
-// (less is told), s grows with it, and r, for the time P/q grows; where it falls below 0.8 of that
-// of the reference, this was no good one, and is learned anew.
+// The warm-up restarts until the deviation has stopped falling. If the deviation grows later (less
+// information), s grows with it, and r, since P/q grows; if it falls below 0.8 of that of the
+// reference, a new reference is learned.
 //
-// It assumes that errors are normal, that the deviation told is not too small by more than the
-// scatter of the warm-up shows or a factor of sqrt(2), and that the parameter stood still in the
-// warm-up. What has drifted is told until it returns, or a new reference is learned.
+// Assumes normal errors, a filter deviation that is not too small by more than the scatter of the
+// warm-up shows or a factor of sqrt(2), and a constant parameter during the warm-up. A drift is
+// reported until the parameter returns or a new reference is learned.
 
-struct DriftWatchSettings {
-  double period = 1.0;          ///< [s], from sample to sample that is looked at
-  double warm_up = 120.0;       ///< [s], of samples that a reference is learned from
-  double matters = 0.02;        ///< [-], of a parameter's reference: the change to be found
+struct CusumDetectorSettings {
+  double period = 1.0;          ///< [s], between evaluated samples
+  double warm_up = 120.0;       ///< [s], of samples to learn a reference from
+  double matters = 0.02;        ///< [-], relative to the reference: the change to be detected
   double false_alarms = 0.005;  ///< [1/h], of all parameters together
 };
 
-class DriftWatch {
+class CusumDetector {
  public:
-  explicit DriftWatch(std::size_t parameters, const DriftWatchSettings& settings = {});
+  explicit CusumDetector(std::size_t parameters, const CusumDetectorSettings& settings = {});
 
   struct Drift {
-    int parameter = -1;  ///< the furthest of those beyond their limits; -1: none is
+    int parameter = -1;  ///< the one furthest beyond its limits; -1: none
     // Of that parameter; NaN: none.
     double from = std::numeric_limits<double>::quiet_NaN();   ///< its reference
-    double to = std::numeric_limits<double>::quiet_NaN();     ///< where it is
-    double since = std::numeric_limits<double>::quiet_NaN();  ///< [s], its sum last stood at 0
-    // The statistic that is nearest to its limit, or furthest beyond; NaN: nothing is learned yet.
+    double to = std::numeric_limits<double>::quiet_NaN();     ///< its current value
+    double since = std::numeric_limits<double>::quiet_NaN();  ///< [s], when its sum was last 0
+    // The statistic nearest to its limit, or furthest beyond; NaN: nothing has been learned yet.
     double statistic = std::numeric_limits<double>::quiet_NaN();  ///< [-], distance or sum
-    double limit = std::numeric_limits<double>::quiet_NaN();      ///< [-], of that
+    double limit = std::numeric_limits<double>::quiet_NaN();      ///< [-], of that statistic
   };
 
   // Real-time safe:
-  /// The estimates of an instant [s] and their standard deviations, one a parameter, at
-  /// least once a period, of which one is looked at. A value or deviation that is not finite (or no
-  /// deviation > 0) is none, and a parameter that is frozen is better not told than told. An
-  /// instant before the last one breaks off what is under way; references stay. True where it was
-  /// looked at.
+  /// The estimates at an instant [s] and their standard deviations, one per parameter, at least
+  /// once a period; one sample a period is evaluated. A value or deviation that is not finite (or a
+  /// deviation <= 0) counts as missing; for a frozen parameter pass none. An instant before the
+  /// last one aborts a warm-up under way; references are kept. True if the sample was evaluated.
   bool take(double time, const double* value, const double* deviation);
-  /// Of the last instant.
+  /// At the last instant.
   const Drift& drift() const { return drift_; }
   /// It has a reference.
   bool learned(std::size_t parameter) const { return watches_[parameter].learned; }
@@ -154,24 +153,24 @@ class DriftWatch {
     double first = 0.0, last = 0.0;
     double sum = 0.0, squares = 0.0, products = 0.0;
     double variances = 0.0;  // deviations squared
-    double deviation = 0.0;  // when it began
+    double deviation = 0.0;  // at its start
   };
   struct Watch {
     WarmUp warm_up;
     bool learned = false;
     double reference = 0.0;    // x0
-    double deviation = 0.0;    // of the warm-up
+    double deviation = 0.0;    // standard deviation of the warm-up
     double correlation = 0.0;  // r
-    double scatter = 0.0;      // [-], of what is new, over s of P/2; >= 1
+    double scatter = 0.0;      // [-], of the innovations, over s of P/2; >= 1
     double spread = 0.0;       // [-], of the distance, over the deviation; >= 1
-    // As the deviation is now.
-    double prepared_for = 0.0;                                   // that deviation
+    // For the current deviation.
+    double prepared_for = 0.0;                                   // this deviation
     double sigma = 0.0;                                          // s0
     double now_correlated = 0.0;                                 // r
     double news = 0.0;                                           // s
     double allowance = 0.0, sum_limit = 0.0;                     // [-], of a sum
     double distance_limit = 0.0;                                 // [-]
-    double previous = std::numeric_limits<double>::quiet_NaN();  // x - x0, of the sample before
+    double previous = std::numeric_limits<double>::quiet_NaN();  // x - x0, previous sample
     double up = 0.0, down = 0.0;                                 // [-]
     double distance = 0.0;                                       // [-]
     double up_since = 0.0, down_since = 0.0;                     // [s]
@@ -184,7 +183,7 @@ class DriftWatch {
   void compare(Watch& watch, double time, double value, double deviation) const;
   void tell(double time);
 
-  DriftWatchSettings settings_;
+  CusumDetectorSettings settings_;
   std::int64_t samples_;  // of a warm-up
   double run_length_;     // of a sum
   double z_;              // normal limit of a distance

@@ -16,7 +16,7 @@ void KalmanFilter::propagate(const Eigen::MatrixXd& transition, const Eigen::Mat
   fp_.noalias() = transition * p_;
   p_.noalias() = fp_ * transition.transpose();
   p_ += noise;
-  // Rounding makes it lopsided, and from there on it would drift.
+  // Rounding makes the matrix unsymmetric, an error that would grow.
   fp_ = p_.transpose();
   p_ = 0.5 * (p_ + fp_);
 }
@@ -43,7 +43,7 @@ void KalmanFilter::take(const Eigen::VectorXd& h, double measured, double deviat
   const double r = deviation * deviation;
   ph_.noalias() = p_ * h;
   const double s = h.dot(ph_) + r;
-  if (!(s > 0.0)) {  // known to be just this
+  if (!(s > 0.0)) {  // exactly known already
     gain_ = Eigen::VectorXd::Zero(size());
     return;
   }

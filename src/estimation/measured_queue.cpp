@@ -12,7 +12,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
-/// So many messages behind its own: the clock has been set.
+/// Consecutive late messages of a source after which its clock is assumed to have been set.
 constexpr int kBehind = 3;
 
 }  // namespace
@@ -62,8 +62,8 @@ void MeasuredQueue::takeSamples(const state::Measurement& message, Source& sourc
     source.counts.lost += (message.at.step - source.newest_block - 1) * source.block_size;
   }
   struct Column {
-    std::size_t place;        // in the message; beyond its channels: it has none
-    double scale, deviation;  // 0: not to be used; 0: not said
+    std::size_t place;        // in the message; beyond its channels: missing
+    double scale, deviation;  // 0: not usable; 0: not specified
   };
   std::vector<Column> columns;
   for (std::size_t c = 0; c < source.channels.size(); ++c) {

@@ -9,22 +9,22 @@
 #include <set>
 #include <stdexcept>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "scene/csv_columns.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kFewestRows = 5;
+constexpr std::size_t kMinRows = 5;
 constexpr double kGap = 5.0;            // of the usual step
 constexpr double kUneven = 0.2;         // of the usual step
-constexpr double kStuckSeconds = 0.25;  // at a value while the column moves elsewhere
+constexpr double kStuckSeconds = 0.25;  // of one value while the column moves elsewhere
 constexpr std::size_t kStuckRows = 20;  // likewise
 constexpr double kCoarse = 1.0e-3;      // of the range
-constexpr double kAlternating = 3.0;    // times the variation of the rows as they are
-constexpr double kLatest = 4.2e9;       // s: stamps end in 2106
+constexpr double kAlternating = 3.0;    // ratio to the variation of the unsorted rows
+constexpr double kLatest = 4.2e9;       // s: 32-bit time stamps end in 2106
 
 double median(std::vector<double> x) {
   const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
@@ -40,7 +40,7 @@ std::vector<double> stepsOf(const std::vector<double>& time) {
   return steps;
 }
 
-/// Sum of the differences between rows that follow each other where the later one is later in time.
+/// Total variation over consecutive rows whose time increases.
 double variation(const MeasuredColumn& column, const std::vector<double>& time) {
   double sum = 0.0;
   for (std::size_t i = 1; i < time.size(); ++i) {
@@ -49,14 +49,14 @@ double variation(const MeasuredColumn& column, const std::vector<double>& time) 
   return sum;
 }
 
-/// Brings rows into the order of their instants. Throws Refusal where that cannot be one run: where
-/// an instant has two rows that differ, or values alternate between those of two motions.
+/// Sorts rows by time. Throws InputError if they cannot be one run: two different rows at an
+/// instant, or values that alternate between two motions.
 void sortByTime(MeasuredRun& run, std::vector<std::size_t>& rows) {
   std::size_t back = 0, first_back = 0;
   for (std::size_t i = 0; i < run.time.size(); ++i) {
     if (!(std::fabs(run.time[i]) <= kLatest)) {
-      throw Refusal(fmt::format("row {0}: the time must be from -{1:g} to {1:g} s, found {2:g}",
-                                rows[i], kLatest, run.time[i]));
+      throw InputError(fmt::format("row {0}: the time must be from -{1:g} to {1:g} s, found {2:g}",
+                                   rows[i], kLatest, run.time[i]));
     }
     if (i > 0 && run.time[i] < run.time[i - 1]) {
       first_back = back++ == 0 ? i : first_back;
@@ -83,18 +83,18 @@ void sortByTime(MeasuredRun& run, std::vector<std::size_t>& rows) {
   for (const MeasuredColumn& column : run.columns) {
     for (std::size_t i = 1; i < rows.size(); ++i) {
       if (run.time[i] == run.time[i - 1] && column.values[i] != column.values[i - 1]) {
-        throw Refusal(fmt::format(
+        throw InputError(fmt::format(
             "{}rows {} and {} have different values of {} at {:.9g} s: must be one run, found two",
-            where, rows[i - 1], rows[i], quoted(column.name), run.time[i]));
+            where, rows[i - 1], rows[i], inQuotes(column.name), run.time[i]));
       }
     }
   }
   for (std::size_t c = 0; c < run.columns.size(); ++c) {
     if (variation(run.columns[c], run.time) >
         kAlternating * variation(of_file.columns[c], of_file.time)) {
-      throw Refusal(fmt::format(
+      throw InputError(fmt::format(
           "{}in the order of time {} alternates between two motions: must be one run, found two",
-          where, quoted(run.columns[c].name)));
+          where, inQuotes(run.columns[c].name)));
     }
   }
   run.remarks.push_back(
@@ -102,7 +102,7 @@ void sortByTime(MeasuredRun& run, std::vector<std::size_t>& rows) {
                   back == 1 ? "row" : "rows", first_back + 1));
 }
 
-/// Rows whose instants are later than all before; `rows` are those they stand on.
+/// Keeps the rows that are later than all before; `rows`: their original numbers.
 void keepAscending(MeasuredRun& run, std::vector<std::size_t>& rows) {
   std::size_t kept = 0;
   std::size_t repeated = 0;
@@ -151,7 +151,7 @@ void remarkOnTime(MeasuredRun& run, const std::vector<std::size_t>& rows) {
   }
 }
 
-/// The longest stretch of rows with one value: first row and count.
+/// The longest sequence of equal values: first row and count.
 std::pair<std::size_t, std::size_t> longestStretch(const std::vector<double>& values) {
   std::pair<std::size_t, std::size_t> longest{0, 0};
   std::size_t from = 0;
@@ -168,7 +168,7 @@ std::pair<std::size_t, std::size_t> longestStretch(const std::vector<double>& va
 
 void remarkOnColumn(const MeasuredRun& run, const std::vector<std::size_t>& rows,
                     const MeasuredColumn& column, std::vector<std::string>& remarks) {
-  const std::string name = quoted(column.name);
+  const std::string name = inQuotes(column.name);
   const auto [least, most] = std::minmax_element(column.values.begin(), column.values.end());
   const double range = *most - *least;
   if (range == 0.0) {
@@ -231,9 +231,9 @@ MeasuredRun measuredRun(std::vector<double> time, std::vector<MeasuredColumn> co
   }
   sortByTime(run, rows);
   keepAscending(run, rows);
-  if (run.time.size() < kFewestRows) {
-    throw Refusal(fmt::format("must have {} rows of different instants, found {}", kFewestRows,
-                              run.time.size()));
+  if (run.time.size() < kMinRows) {
+    throw InputError(fmt::format("must have {} rows of different instants, found {}", kMinRows,
+                                 run.time.size()));
   }
   remarkOnTime(run, rows);
   for (const MeasuredColumn& column : run.columns) {

@@ -7,9 +7,9 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kApart = 0.25;          // of a frequency
-constexpr double kLeastAssurance = 0.3;  // of shapes
-constexpr double kSameDirection = 0.1;   // sine of the angle between probes that see the same
+constexpr double kApart = 0.25;         // relative frequency difference
+constexpr double kMinAssurance = 0.3;   // modal assurance criterion
+constexpr double kSameDirection = 0.1;  // sine of the angle between parallel probes
 
 std::complex<double> turned(double angle) {
   return std::polar(1.0, angle);
@@ -88,9 +88,8 @@ std::vector<ModePair> pairModes(const std::vector<AmbientMode>& measured,
       if (!(shape.squaredNorm() > 1.0e-6 * whole) || apart > kApart) {
         continue;
       }
-      const double assurance = std::norm(shape.dot(measured[i].shape)) /
-                               (shape.squaredNorm() * measured[i].shape.squaredNorm());
-      if (assurance < kLeastAssurance) {
+      const double assurance = modalAssurance(shape, measured[i].shape);
+      if (assurance < kMinAssurance) {
         continue;
       }
       const double share = std::sqrt(shape.squaredNorm() / whole);

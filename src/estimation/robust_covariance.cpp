@@ -11,8 +11,8 @@ namespace whirl_twin {
 
 namespace {
 
-/// Blocks that are kept. Two neighbours become one where there are more, those with the least
-/// information: what concentrates about a resonance stays apart.
+/// Maximum number of blocks. Beyond it the two neighbours with the smallest information are merged:
+/// information concentrated at a resonance keeps its resolution.
 constexpr std::size_t kMaxBlocks = 64;
 constexpr double kNormal975 = 1.959963984540054;
 
@@ -21,7 +21,7 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix) {
       Eigen::MatrixXd(Eigen::MatrixXd::Identity(matrix.rows(), matrix.rows())));
 }
 
-/// Student's 97.5 % point over the normal one.
+/// Ratio of Student's 97.5 % point to the normal one.
 double studentsFactor(double freedom) {
   const boost::math::students_t distribution(std::max(1.0, freedom));
   return boost::math::quantile(distribution, 0.975) / kNormal975;
@@ -102,7 +102,7 @@ void RobustCovariance::add(const Eigen::VectorXd& numbers, const Eigen::MatrixXd
   if (walk_.maxCoeff() > 0.0) {
     Eigen::MatrixXd walked = covariance_;
     for (Eigen::Index i = 0; i < walk_.size(); ++i) {
-      // As in the filter: uncertainty does not grow beyond that of the start.
+      // As in the filter: the uncertainty does not grow beyond the initial one.
       walked(i, i) += covariance_(i, i) < 1.0 ? walk_[i] * duration : 0.0;
     }
     before = inverse(walked);

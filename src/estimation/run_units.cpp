@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "algebra/constants.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "messages/units.h"
 #include "signal/outliers.h"
 
@@ -20,18 +20,18 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kWithinATurn = 1.01;     // turns; an encoder's noise may lie beyond one
-constexpr double kMostTurnsCounted = 10;  // by encoders of several turns; more are degrees
-constexpr double kSureStep = 0.7 * kPi;   // rad, whose direction is known
-constexpr double kLongGap = 5.0;          // of the usual step
-constexpr double kLongStep = 1.5;         // likewise: the angle between is not sampled
-constexpr double kShortStep = 0.5;        // likewise: too short to tell a rate
+constexpr double kWithinATurn = 1.01;    // turns; an encoder's noise may exceed one
+constexpr double kMaxTurnsCounted = 10;  // of multi-turn encoders; more are degrees
+constexpr double kSureStep = 0.7 * kPi;  // rad, of unambiguous direction
+constexpr double kLongGap = 5.0;         // of the usual step
+constexpr double kLongStep = 1.5;        // likewise: the angle between is not sampled
+constexpr double kShortStep = 0.5;       // likewise: too short for a rate
 
 double withoutTurns(double step) {
   return step - kTwoPi * std::round(step / kTwoPi);
 }
 
-/// The steps of a column from row to row.
+/// Differences of a column between consecutive rows.
 class AngleSteps {
  public:
   AngleSteps(const std::vector<double>& time, const std::vector<double>& x, double usual)
@@ -42,7 +42,7 @@ class AngleSteps {
   double duration(std::size_t i) const { return time_[i] - time_[i - 1]; }
   bool isJump(std::size_t i) const { return std::fabs(of(i)) > kPi; }
   bool isOverGap(std::size_t i) const { return duration(i) > kLongGap * usual_; }
-  /// Before and after a jump it moves slowly, and with a turn less so does the jump.
+  /// Slow before and after the jump, and the jump is small without a turn.
   bool isAlone(std::size_t i) const {
     return isSure(withoutTurns(of(i))) && (i < 2 || isOverGap(i - 1) || isSure(of(i - 1))) &&
            (i + 1 == count() || isOverGap(i + 1) || isSure(of(i + 1)));
@@ -50,7 +50,7 @@ class AngleSteps {
   bool isSampled(std::size_t i) const { return duration(i) <= kLongStep * usual_; }
   static bool isSure(double step) { return std::fabs(step) <= kSureStep; }
 
-  /// [rad/s], the fastest from row to row.
+  /// Largest rate [rad/s] between rows.
   double fastest() const {
     double rate = 0.0;
     for (std::size_t i = 1; i < count(); ++i) {
@@ -67,7 +67,7 @@ class AngleSteps {
   double usual_;
 };
 
-/// Throws Refusal where the only jumps are in gaps: both may be.
+/// Throws InputError if jumps occur only in gaps: it cannot be decided.
 bool isWrapped(const AngleSteps& steps, const std::vector<double>& time, double range,
                const std::string& column) {
   const bool within = range <= kWithinATurn * kTwoPi;
@@ -77,18 +77,18 @@ bool isWrapped(const AngleSteps& steps, const std::vector<double>& time, double 
       over_gap = i;
     } else if (steps.isJump(i)) {
       if (!within && !steps.isAlone(i)) {
-        return false;  // it turns by that much from row to row
+        return false;  // a genuine motion, that large from row to row
       }
       ++jumps;
     }
   }
   if (jumps == 0 && over_gap > 0 && within) {
-    throw Refusal(
+    throw InputError(
         fmt::format("column {}: jumps by {:.3g} rad in the gap before {:.9g} s: set `wrap: true` "
                     "if the angle is within one turn, `wrap: false` if it counts turns",
-                    quoted(column), steps.of(over_gap), time[over_gap]));
+                    inQuotes(column), steps.of(over_gap), time[over_gap]));
   }
-  return jumps > 0 && range <= kMostTurnsCounted * kTwoPi;
+  return jumps > 0 && range <= kMaxTurnsCounted * kTwoPi;
 }
 
 void requireDirections(const AngleSteps& steps, const std::vector<double>& time,
@@ -97,17 +97,17 @@ void requireDirections(const AngleSteps& steps, const std::vector<double>& time,
   for (std::size_t i = 1; i < steps.count(); ++i) {
     const double step = withoutTurns(steps.of(i));
     if (steps.isSampled(i) && !AngleSteps::isSure(step)) {
-      throw Refusal(
+      throw InputError(
           fmt::format("column {}: a wrapped angle moves by {:.3g} rad from one row to the next, at "
                       "{:.9g} s: must have at least three rows per turn, or the direction is "
                       "unknown (`wrap: false` does not unwrap it)",
-                      quoted(column), step, time[i]));
+                      inQuotes(column), step, time[i]));
     }
     if (!steps.isSampled(i) && fastest * steps.duration(i) > kPi) {
-      throw Refusal(fmt::format(
+      throw InputError(fmt::format(
           "column {}: a wrapped angle may have turned further in the gap of {:.4g} s before {:.9g} "
           "s: must have no gap; give the rows before and after it as two runs",
-          quoted(column), steps.duration(i), time[i]));
+          inQuotes(column), steps.duration(i), time[i]));
     }
   }
 }
@@ -139,10 +139,10 @@ void unwrapTurns(MeasuredRun& run, const MeasuredChannel& channel) {
     x[i] += kTwoPi * turns;
   }
   if (jumps > 0) {
-    run.remarks.push_back(
-        fmt::format("{} is a wrapped angle: {} {} of whole turns unwrapped, the first at {:.9g} s "
-                    "(`wrap: false` does not unwrap it)",
-                    quoted(channel.column), jumps, jumps == 1 ? "jump" : "jumps", run.time[first]));
+    run.remarks.push_back(fmt::format(
+        "{} is a wrapped angle: {} {} of whole turns unwrapped, the first at {:.9g} s "
+        "(`wrap: false` does not unwrap it)",
+        inQuotes(channel.column), jumps, jumps == 1 ? "jump" : "jumps", run.time[first]));
   }
 }
 
@@ -151,16 +151,16 @@ namespace {
 constexpr double kMost = 1.0e6;  // of a channel's unit: rad, m, rad/s, m/s
 constexpr double kManyTurns = 10.0;
 constexpr double kManySteps = 1000.0;  // of the scene, from row to row
-constexpr int kFewestInWindow = 5;     // rows
+constexpr int kMinInWindow = 5;        // rows
 
-/// Of `q1[deg]`; "" where there is none.
+/// Unit in `q1[deg]`; "" if there is none.
 std::string columnUnit(const std::string& column) {
   const std::size_t open = column.rfind('[');
   if (open == std::string::npos || column.back() != ']') {
     return "";
   }
   const std::string unit = column.substr(open + 1, column.size() - open - 2);
-  // An index is none: `positions[0]`.
+  // An index is not a unit: `positions[0]`.
   return !unit.empty() && std::isalpha(static_cast<unsigned char>(unit.front())) != 0 &&
                  isUnit(unit)
              ? unit
@@ -178,10 +178,10 @@ class Columns {
     }
     const double scale = unitScale(unit, wanted);
     if (scale == 0.0) {
-      throw Refusal(
+      throw InputError(
           fmt::format("column {}: the unit is {}, but {} must be in {} or another unit of that "
                       "kind",
-                      quoted(name), printable(unit), what, wanted));
+                      inQuotes(name), printable(unit), what, wanted));
     }
     for (MeasuredColumn& column : run_.columns) {
       for (double& value : column.values) {
@@ -201,9 +201,9 @@ void judgeChannel(MeasuredRun& run, const MeasuredChannel& channel) {
   std::size_t leaps_at = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!(std::fabs(x[i]) <= kMost)) {
-      throw Refusal(fmt::format("column {}: {} must be within {:g} {}, found {:g} at {:.9g} s",
-                                quoted(channel.column), channel.name, kMost, channel.unit, x[i],
-                                run.time[i]));
+      throw InputError(fmt::format("column {}: {} must be within {:g} {}, found {:g} at {:.9g} s",
+                                   inQuotes(channel.column), channel.name, kMost, channel.unit,
+                                   x[i], run.time[i]));
     }
     if (i > 0 && std::fabs(x[i] - x[i - 1]) > leap) {
       leap = std::fabs(x[i] - x[i - 1]);
@@ -217,16 +217,16 @@ void judgeChannel(MeasuredRun& run, const MeasuredChannel& channel) {
   if (*most - *least > kManyTurns * kTwoPi) {
     run.remarks.push_back(fmt::format(
         "{} ranges over {:.3g} rad, {:.3g} turns: is it in degrees? then write `q[deg]`",
-        quoted(channel.column), *most - *least, (*most - *least) / kTwoPi));
+        inQuotes(channel.column), *most - *least, (*most - *least) / kTwoPi));
   } else if (leap > 0.5 * kTwoPi) {
     run.remarks.push_back(fmt::format(
         "{} jumps by {:.3g} rad from one row to the next, at {:.9g} s: wrapped at a turn, or in "
         "degrees?",
-        quoted(channel.column), leap, run.time[leaps_at]));
+        inQuotes(channel.column), leap, run.time[leaps_at]));
   }
 }
 
-/// Is each of its measured columns one number in all rows?
+/// Are all its measured columns constant?
 bool standsStill(const StudyRun& run) {
   return std::all_of(run.measured.begin(), run.measured.end(), [&](const MeasuredChannel& c) {
     const std::vector<double>& x = run.data.column(c.column);
@@ -234,7 +234,7 @@ bool standsStill(const StudyRun& run) {
   });
 }
 
-/// Puts the mean of the rows beside it in the place of a wild sample (wild_samples.h).
+/// Replaces outliers by the mean of the neighbouring rows.
 void replaceWildSamples(MeasuredRun& run, const std::string& name) {
   std::vector<double>& x =
       std::find_if(run.columns.begin(), run.columns.end(), [&](const MeasuredColumn& column) {
@@ -253,11 +253,11 @@ void replaceWildSamples(MeasuredRun& run, const std::string& name) {
   run.remarks.push_back(
       fmt::format("{}: {} implausible {}, the first of {:.4g} at {:.9g} s: replaced by the mean of "
                   "the neighbouring rows",
-                  quoted(name), wild.size(), wild.size() == 1 ? "sample" : "samples",
+                  inQuotes(name), wild.size(), wild.size() == 1 ? "sample" : "samples",
                   x[wild.front()], run.time[wild.front()]));
   for (const std::size_t i : wild) {
     const double after = x[i + 1];
-    const bool jumps = std::fabs(after - x[i - 1]) > kPi;  // of an angle, to the next turn
+    const bool jumps = std::fabs(after - x[i - 1]) > kPi;  // a wrapped angle
     x[i] = jumps ? x[i - 1] : 0.5 * (x[i - 1] + after);
   }
 }
@@ -268,8 +268,8 @@ void settleUnits(StudyRun& run, const std::string& time, const std::vector<Input
                  double step_seconds) {
   const std::string unit = columnUnit(time);
   if (!unit.empty() && unitScale(unit, "s") != 1.0) {
-    throw Refusal(
-        fmt::format("column {}: the time must be in s, found {}", quoted(time), printable(unit)));
+    throw InputError(
+        fmt::format("column {}: the time must be in s, found {}", inQuotes(time), printable(unit)));
   }
   Columns columns(run.data);
   for (const MeasuredChannel& channel : run.measured) {
@@ -293,14 +293,15 @@ void settleUnits(StudyRun& run, const std::string& time, const std::vector<Input
 
 void requireUse(const StudyRun& run, double window) {
   if (run.train && standsStill(run)) {
-    throw Refusal("the measurements must change during a run, found the same values in every row");
+    throw InputError(
+        "the measurements must change during a run, found the same values in every row");
   }
   const double usual = run.data.usualStep();
-  if (kFewestInWindow * usual > window * (1.0 + 1.0e-9)) {
-    throw Refusal(
+  if (kMinInWindow * usual > window * (1.0 + 1.0e-9)) {
+    throw InputError(
         fmt::format("rows are {:.4g} s apart, so windows of {:g} s have fewer than {}: use longer "
                     "windows, or the time in s",
-                    usual, window, kFewestInWindow));
+                    usual, window, kMinInWindow));
   }
 }
 

@@ -1,6 +1,6 @@
-// What the columns of a run are in. A name that ends in a unit, `q1[deg]`, as adapters of
-// acquisition cards write it, says so; of others, numbers that cannot be in the unit that they are
-// taken in are refused, and those that hardly can are remarked.
+// Units of the columns of a run. A column name may end in a unit, `q1[deg]`, as written by some
+// data acquisition software; without one, values that are impossible in the assumed unit are
+// rejected, and unlikely ones are remarked.
 #pragma once
 
 #include <string>
@@ -11,24 +11,23 @@
 
 namespace whirl_twin {
 
-// Angles of encoders that count within a turn, from -pi to pi or from 0 to 360 deg, as angles that
-// go on from turn to turn.
+// Unwraps angles of encoders that count within a turn, from -pi to pi or from 0 to 360 deg.
 
-/// Unwraps the column [rad] of a channel: from row to row it then moves by half a turn at most. As
-/// the channel's `wrap` says; where that says nothing, a column that jumps by more than half a turn
-/// from a row to the next is wrapped if it stays within a turn, or if it hardly moves before and
-/// after the jumps. Remarks on it. Throws Refusal where the direction between two rows is not
-/// known: in a gap, or of less than three rows a turn.
+/// Unwraps the column [rad] of a channel: steps from row to row are then at most half a turn.
+/// Governed by the channel's `wrap`; if that is not set, a column with jumps of more than half a
+/// turn from a row to the next is wrapped if it stays within a turn, or if it hardly moves before
+/// and after the jumps. Adds remarks. Throws InputError where the direction between two rows is not
+/// known: in a gap, or with less than three rows a turn.
 void unwrapTurns(MeasuredRun& run, const MeasuredChannel& channel);
 
-/// Brings columns with a unit to those of the study's channels and inputs (unitScale()), and adds
-/// remarks. Throws Refusal with what is wrong: a unit of
-/// another kind, a time that is not in s, numbers that no machine shows.
+/// Converts columns with a unit to the units of the study's channels and inputs (unitScale()), and
+/// adds remarks. Throws InputError for a unit of another kind, a time that is not in s, and
+/// implausible values.
 void settleUnits(StudyRun& run, const std::string& time, const std::vector<InputInfo>& inputs,
                  double step_seconds);
 
-/// Throws Refusal where nothing can be fitted to a run: windows [s] that hold hardly a row, and of
-/// one to be fitted, measured columns that are one number each in all rows.
+/// Throws InputError if a run cannot be used for a fit: windows [s] with too few rows, or, in a
+/// training run, measured columns that are all constant.
 void requireUse(const StudyRun& run, double window);
 
 }  // namespace whirl_twin

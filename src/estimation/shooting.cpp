@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kMoved = 1.0e-6;     // of what is measured, by a difference
-constexpr double kFirstTry = 1.0e-6;  // of an unknown
+constexpr double kMoved = 1.0e-6;     // relative to the measured signal
+constexpr double kFirstTry = 1.0e-6;  // relative to an unknown
 constexpr double kFirstTryOfZero = 1.0e-8;
-constexpr double kMostOfUnknown = 1.0e-2;
+constexpr double kMaxOfUnknown = 1.0e-2;
 constexpr int kTries = 3;
-constexpr double kNoEffect = 1.0e-10;  // of what is measured: rounding, or as good as that
+constexpr double kNoEffect = 1.0e-10;  // relative to the measured signal: rounding
 constexpr std::size_t kWindowsLookedAt = 4;
 
 /// Root mean square about the mean.
@@ -37,7 +37,7 @@ Shooting::Shooting(const FitStudy& study, const CandidateMaker& maker)
     change_[static_cast<Eigen::Index>(i)] =
         all[i].start == 0.0 ? kFirstTryOfZero : kFirstTry * std::fabs(all[i].start);
   }
-  // Of the size that coordinates and their rates have where they are measured.
+  // From the measured range of coordinates and rates.
   Eigen::VectorXd size = Eigen::VectorXd::Zero(startSize());
   for (const StudyRun& run : study.runs) {
     for (const MeasuredChannel& c : run.measured) {
@@ -69,7 +69,7 @@ bool Shooting::setPoint(const Eigen::VectorXd& theta, bool derivatives) {
   const auto made = [&](const Eigen::VectorXd& at) -> std::optional<Candidate> {
     try {
       return maker_.at(at);
-    } catch (const Refusal&) {
+    } catch (const InputError&) {
       return std::nullopt;
     }
   };
@@ -135,7 +135,7 @@ void Shooting::chooseDifferences(const std::vector<Window>& windows,
       moving_all_[i] = moved > kNoEffect * measured ? change_[i] * by / kMoved : 0.0;
       change_[i] *= std::clamp(by, 1.0e-4, 1.0e4);
       if (about > 0.0) {
-        change_[i] = std::min(change_[i], kMostOfUnknown * about);
+        change_[i] = std::min(change_[i], kMaxOfUnknown * about);
       }
     }
   }
@@ -144,7 +144,7 @@ void Shooting::chooseDifferences(const std::vector<Window>& windows,
 bool Shooting::residualsOf(const Candidate& candidate, const Window& window,
                            const Eigen::VectorXd& start, Eigen::VectorXd& out) const {
   Eigen::MatrixXd states;
-  // A start as measured moves with the sensors' zeros.
+  // A measured start depends on the sensors' offsets.
   if (!predict(study_, maker_.scene(), candidate, window,
                study_.start_estimated ? start : measuredStart(study_, candidate, window), states)) {
     return false;

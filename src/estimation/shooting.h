@@ -1,9 +1,9 @@
-// Multiple shooting: the residuals of windows, each with a start of its own, and how they hang on
-// the unknowns of a study and on those starts.
+// Multiple shooting: the residuals of windows, each with its own start, and their derivatives by
+// the unknowns of a study and by those starts.
 //
-// Derivatives are central differences of the predicted motion, each over a change that moves what
-// is predicted by some 1e-6 of what is measured: truncation and rounding leave them six digits or
-// more, for any model and method.
+// Derivatives are central differences of the predicted motion, each with a change that moves the
+// prediction by some 1e-6 of the measured signal: truncation and rounding leave at least six
+// digits, for any model and method.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,29 +22,29 @@ struct WindowDerivatives {
 
 class Shooting {
  public:
-  /// Study and maker outlive it.
+  /// Study and maker must outlive it.
   Shooting(const FitStudy& study, const CandidateMaker& maker);
 
   const FitStudy& study() const { return study_; }
   Eigen::Index unknowns() const { return static_cast<Eigen::Index>(maker_.unknowns().size()); }
   Eigen::Index startSize() const;
 
-  /// Takes up a point, with its neighbours where derivatives are to follow. False where the model
-  /// cannot have such parameters.
+  /// Sets the evaluation point, with its neighbours if derivatives are to follow. False where the
+  /// parameters are invalid for the model.
   bool setPoint(const Eigen::VectorXd& theta, bool derivatives);
   const Candidate& candidate() const { return *candidate_; }
-  /// Finds the changes that differences are taken over, at the point taken up.
+  /// Chooses the steps of the finite differences at the current point.
   void chooseDifferences(const std::vector<Window>& windows,
                          const std::vector<Eigen::VectorXd>& starts);
-  /// Of each unknown, the change that moves what is predicted by as much as is measured, by the
-  /// slope there was when differences were chosen; 0 where it moves nothing.
+  /// For each unknown, the change that moves the prediction by as much as is measured, from the
+  /// slope when the differences were chosen; 0 where it has no effect.
   const Eigen::VectorXd& movingAll() const { return moving_all_; }
 
-  // From several threads at once.
+  // May be called from several threads at once.
 
-  /// False where the motion does not get to the window's end.
+  /// False if the motion stops before the window's end.
   bool residuals(const Window& window, const Eigen::VectorXd& start, Eigen::VectorXd& out) const;
-  /// by_unknowns stays empty where it is not `wanted`, by_start where starts are given.
+  /// by_unknowns stays empty unless wanted, by_start if starts are given.
   bool derivatives(const Window& window, const Eigen::VectorXd& start, bool unknowns_wanted,
                    WindowDerivatives& out) const;
 

@@ -4,17 +4,17 @@
 #include <cmath>
 
 #include "algebra/dense.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kReach = 0.025;           // s, to either side
-constexpr std::size_t kFewestToASide = 4;  // rows
-constexpr std::size_t kMostPoints = 3000;  // of a study
+constexpr double kReach = 0.025;          // s, to either side
+constexpr std::size_t kMinToASide = 4;    // rows
+constexpr std::size_t kMaxPoints = 3000;  // of a study
 
-/// Value, slope and second derivative at the middle row of a quadratic (least squares).
+/// Least-squares quadratic: value, slope and second derivative at the middle row.
 Eigen::Vector3d quadratic(const Eigen::MatrixX3d& powers, double width, const double* values) {
   const Eigen::Map<const Eigen::VectorXd> y(values, powers.rows());
   const Eigen::Vector3d c = PivotedQr(powers).solve(y);
@@ -40,7 +40,7 @@ EquationError::EquationError(const FitStudy& study, const CandidateMaker& maker)
   for (const StudyRun& run : study.runs) {
     rows += run.train && measuresAll(run, dof) ? run.data.time.size() : 0;
   }
-  const std::size_t stride = std::max<std::size_t>(1, rows / kMostPoints);
+  const std::size_t stride = std::max<std::size_t>(1, rows / kMaxPoints);
   std::vector<std::vector<double>> sizes(dof);
   for (std::size_t r = 0; r < study.runs.size(); ++r) {
     const StudyRun& run = study.runs[r];
@@ -48,8 +48,8 @@ EquationError::EquationError(const FitStudy& study, const CandidateMaker& maker)
     if (!run.train || !measuresAll(run, dof)) {
       continue;
     }
-    for (std::size_t k = kFewestToASide; k + kFewestToASide < time.size(); k += stride) {
-      std::size_t from = k - kFewestToASide, to = k + kFewestToASide;
+    for (std::size_t k = kMinToASide; k + kMinToASide < time.size(); k += stride) {
+      std::size_t from = k - kMinToASide, to = k + kMinToASide;
       while (from > 0 && time[k] - time[from - 1] <= kReach) {
         --from;
       }
@@ -113,7 +113,7 @@ Eigen::VectorXd EquationError::residuals(const Candidate& candidate) const {
     }
     drive.begin(std::llround(point.time * 1.0e9));
     const ShaftMotion shaft = drive.at(0.0);
-    Moment<double> moment{};
+    EvaluationPoint<double> moment{};
     moment.time = point.time;
     moment.angle = shaft.angle;
     moment.speed = shaft.speed;
@@ -139,7 +139,7 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kUnusualEquation = 0.2;  // of usual accelerations
+constexpr double kUnusualEquation = 0.2;  // relative to usual accelerations
 constexpr double kEquationChange = 1.0e-5;
 constexpr double kEquationChangeOfZero = 1.0e-7;
 
@@ -239,7 +239,7 @@ bool EquationCost::Evaluate(double const* const* blocks, double* residuals,
       Eigen::Map<RowMajor>(jacobians[0], here.size(), n) = slope.asDiagonal() * by_unknowns;
     }
     return true;
-  } catch (const Refusal&) {
+  } catch (const InputError&) {
     return false;
   }
 }

@@ -1,4 +1,4 @@
-// The least-squares problems of a fit as Ceres sees them.
+// Cost functions of a fit for Ceres.
 #pragma once
 
 #include <ceres/cost_function.h>
@@ -11,23 +11,23 @@
 
 namespace whirl_twin {
 
-// The equations of motion along measured runs: what their accelerations differ by from the model's,
-// without stepping anything. Rough, for noise counts twice when it is differentiated, but without
-// false minima: where a fit begins.
+// Equation error: the difference of the accelerations along measured runs from the model's, without
+// integration. It amplifies noise by the differentiation, but has no false minima: it gives the
+// start of a fit.
 
 class EquationError {
  public:
-  /// Of the training runs in which every coordinate is measured: by quadratics through the rows
-  /// within some hundredths of a second. Study and maker outlive it.
+  /// From the training runs in which every coordinate is measured, by quadratics through the rows
+  /// within some hundredths of a second. Study and maker must outlive it.
   EquationError(const FitStudy& study, const CandidateMaker& maker);
 
   bool empty() const { return points_.empty(); }
   Eigen::Index size() const;
-  /// Measured less predicted accelerations [size()], in parts of what is usual of each coordinate.
+  /// Measured less predicted accelerations [size()], relative to the usual one of each coordinate.
   Eigen::VectorXd residuals(const Candidate& candidate) const;
 
  private:
-  /// Of each channel and input as its column has it: value, first and second derivative.
+  /// Of each channel and input, in the unit of its column: value, first and second derivative.
   struct Point {
     std::size_t run;
     double time;
@@ -41,11 +41,12 @@ class EquationError {
   Eigen::VectorXd usual_;  // accelerations
 };
 
-/// Beyond `huber` a residual counts linearly: as the square of what this makes of it, which changes
-/// with it by `slope`. (Ceres's own losses are of whole blocks, here windows.)
+/// Huber loss by residual: replaces each residual beyond `huber` by one whose square grows
+/// linearly; slope: derivative of the new residual by the old one. (Ceres's own loss functions act
+/// on whole blocks, here windows.)
 void makeRobust(double huber, Eigen::VectorXd& residuals, Eigen::VectorXd& slope);
 
-/// A window. Blocks: the unknowns, where there are any, and its start, where that is found.
+/// Cost of a window. Blocks: the unknowns, if any, and its start, if estimated.
 class WindowCost final : public ceres::CostFunction {
  public:
   WindowCost(const Shooting& shooting, const Window& window, const Eigen::VectorXd& given_start,
@@ -59,7 +60,7 @@ class WindowCost final : public ceres::CostFunction {
   bool unknowns_;
 };
 
-/// The equation errors of the training runs. Block: the unknowns.
+/// Equation errors of the training runs. Block: the unknowns.
 class EquationCost final : public ceres::CostFunction {
  public:
   EquationCost(const EquationError& equations, const CandidateMaker& maker);

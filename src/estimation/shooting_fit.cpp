@@ -7,20 +7,20 @@
 
 #include "algebra/dense.h"
 #include "estimation/shooting_solver.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kHeldTo = 1.0e-2;  // deviations along an untold direction, of its parts
-constexpr double kStays = 0.9;      // of what was left over, when held again
-constexpr int kMostHeld = 4;
-constexpr int kMostTurns = 6;
+constexpr double kHeldTo = 1.0e-2;  // standard deviations along a fixed direction, relative
+constexpr double kStays = 0.9;      // ratio of residuals: no further gain
+constexpr int kMaxFixed = 4;
+constexpr int kMaxTurns = 6;
 constexpr double kAtBound = 1.0e-9;
-constexpr double kFirstRows = 10.0;  // that the shortest windows have
+constexpr double kFirstRows = 10.0;  // in the shortest windows
 
-/// From short windows to those of the study.
+/// Window lengths of the stages, from short ones to that of the study.
 std::vector<double> stageLengths(const FitStudy& study) {
   double longest = 0.0, usual = 0.0;
   for (const StudyRun& run : study.runs) {
@@ -49,7 +49,7 @@ void requireArrival(const FitStudy& study, const ShootingStage& stage,
   }
 }
 
-/// Rows of a HeldCost: along what runs do not tell, no way from where the unknowns start.
+/// Rows of a HeldCost that keep the unknowns at their start values in unidentifiable directions.
 Eigen::MatrixXd heldDirections(const Information& information, const Eigen::VectorXd& sizes,
                                const ShootingSolver& solver, double deviation) {
   const auto count = static_cast<Eigen::Index>(information.untold.size());
@@ -60,18 +60,18 @@ Eigen::MatrixXd heldDirections(const Information& information, const Eigen::Vect
       directions(i, k) = parts[i] * sizes[i] * solver.distance().slope(i, solver.theta()[i]);
     }
   }
-  // At right angles: what has become small is in all of them, and would leave the rest loose.
+  // Orthonormal basis: nearly parallel directions would otherwise leave their difference free.
   const Eigen::MatrixXd across = orthonormalBasis(directions);
   return deviation / kHeldTo * across.transpose();
 }
 
-/// Unknowns and starts of the last stage. What the windows do not tell has to be known before it
-/// can be held, and a solution that is free runs away along it to where they tell something else:
-/// so the unknowns are first held about their start values, all of them, as if each were known
-/// there to its own size. What is told goes free then, for it would be off by a part of that.
+/// Fits unknowns and starts in the last stage. Unidentifiable directions must be known before they
+/// can be fixed, and a free solution diverges along them to where they become identifiable.
+/// Therefore all unknowns are first fixed softly about their start values, each with a standard
+/// deviation of its size. Then the identifiable ones are released, since they would be biased.
 Information settle(ShootingSolver& solver, ShootingStage& stage) {
   LeftOver left = solver.leftOver(stage);
-  for (int pass = 0; pass < kMostHeld; ++pass) {
+  for (int pass = 0; pass < kMaxFixed; ++pass) {
     const double before = left.deviation;
     solver.solve(stage, true, solver.aboutStart(left.deviationAlone()));
     left = solver.leftOver(stage);
@@ -85,8 +85,8 @@ Information settle(ShootingSolver& solver, ShootingStage& stage) {
   Eigen::VectorXd sizes = sizesHere();
   Information result =
       information(solver.normalEquations(stage), solver.theta(), sizes, left.rows_alike);
-  // Directions turn on the way, and sizes are those of where it has come to.
-  for (int pass = 0; pass < kMostTurns; ++pass) {
+  // Directions rotate during the iteration; sizes are those of the current point.
+  for (int pass = 0; pass < kMaxTurns; ++pass) {
     solver.solve(stage, true, heldDirections(result, sizes, solver, left.deviationAlone()));
     left = solver.leftOver(stage);
     const Eigen::VectorXd now = sizesHere();
@@ -96,7 +96,7 @@ Information settle(ShootingSolver& solver, ShootingStage& stage) {
         information(solver.normalEquations(stage), solver.theta(), sizes, left.rows_alike);
     const bool held = there.untold.size() <= result.untold.size();
     if (there.untold.size() >= result.untold.size()) {
-      result = std::move(there);  // of where they are held now
+      result = std::move(there);  // of the current fixed directions
     }
     if (result.untold.empty() || (same && held)) {
       break;
@@ -142,8 +142,8 @@ FittedRun predictedRun(const FitStudy& study, ShootingSolver& solver, const Shoo
   return run;
 }
 
-/// A run with the starts of its windows, and with what it has for itself where that is not found
-/// yet.
+/// A run with the fitted starts of its windows, and with its own sensor numbers if these have not
+/// been fitted yet.
 FittedRun predictedRun(const FitStudy& study, ShootingSolver& solver, std::size_t r) {
   ShootingStage stage = solver.stageOf(study.window, r);
   const std::vector<bool> arrived = solver.findStarts(stage);

@@ -1,4 +1,4 @@
-// Finds the unknowns of a study by multiple shooting (Bock 1983), the starts of the windows
+// Fits the unknowns of a study by multiple shooting (Bock 1983), with the starts of the windows
 // eliminated (Schur complement): least squares by Ceres, within bounds.
 #pragma once
 
@@ -13,14 +13,14 @@
 
 namespace whirl_twin {
 
-/// A run beside what is predicted of it.
+/// A run and its prediction.
 struct FittedRun {
-  std::vector<MeasuredChannel> channels;  ///< with the zeros and scales that were found
+  std::vector<MeasuredChannel> channels;  ///< with the fitted offsets and scales
   Eigen::MatrixXd states;   ///< predicted coordinates and rates [2n x rows]; NaN where it stops
   std::vector<double> rms;  ///< of each channel [its unit], over all windows
-  /// Of each channel, correlation of a residual with the next one: 0 for white ones.
+  /// Lag-one autocorrelation of the residuals of each channel: 0 for white ones.
   std::vector<double> persistence;
-  /// The numbers of sensors that it has for itself, with their values.
+  /// The sensor numbers fitted for this run only, with their values.
   std::vector<std::pair<Unknown, double>> own;
 };
 
@@ -34,12 +34,12 @@ struct ShootingFit {
   bool converged = true;
 };
 
-/// told(done, of) after each stage and each run.
+/// Called as (done, of) after each stage and each run.
 using FitProgress = std::function<void(int done, int of)>;
 
-/// In directions that the runs do not tell the unknowns stay where they start. Throws Refusal for
-/// start values that the model cannot have, and RunFailure where the motion does not get through a
-/// training run from them.
+/// In unidentifiable directions the unknowns keep their start values. Throws InputError for start
+/// values that are invalid for the model, and RunFailure if the motion from them stops within a
+/// training run.
 ShootingFit fitByShooting(const FitStudy& study, const FitProgress& progress);
 
 }  // namespace whirl_twin

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "estimation/shooting_costs.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -65,15 +65,16 @@ namespace {
 constexpr int kIterations = 100;
 constexpr int kStageIterations = 20;
 constexpr int kStartIterations = 30;
-constexpr double kTolerance = 1.0e-7;  // of the squares, in an iteration
+constexpr double kTolerance = 1.0e-7;  // relative change of the squares per iteration
 constexpr double kParameterTolerance = 1.0e-10;
 constexpr double kRoughly = 1.0e-6;
-constexpr int kMostThreads = 8;
+constexpr int kMaxThreads = 8;
 constexpr int kRegressions = 2;
-constexpr double kSurelyPersistent = 5.0;  // standard deviations of what white residuals have
-constexpr double kMostPersistent = 0.9999;
-/// Of what moves the prediction by all that is measured: no start value is taken for less certain.
-constexpr double kLeastSize = 1.0e-4;
+constexpr double kSurelyPersistent = 5.0;  // standard deviations of a white autocorrelation
+constexpr double kMaxPersistent = 0.9999;
+/// Smallest size of a start value, relative to the change that moves the prediction by the whole
+/// measured signal.
+constexpr double kMinSize = 1.0e-4;
 
 ceres::Solver::Options quiet(int iterations) {
   ceres::Solver::Options options;
@@ -85,8 +86,8 @@ ceres::Solver::Options quiet(int iterations) {
   return options;
 }
 
-/// What ends a solution is told in words of the study; Ceres writes its own to glog beside, which
-/// has one level for the whole process.
+/// The end of a solution is reported in terms of the study; silences Ceres' own log messages to
+/// glog, which has one level per process.
 class QuietLog {
  public:
   QuietLog() { FLAGS_minloglevel = google::GLOG_FATAL; }
@@ -114,7 +115,7 @@ ShootingSolver::ShootingSolver(const FitStudy& study, CandidateMaker maker)
     const Unknown& u = unknown(i);
     theta_[i] = std::clamp(u.start, u.least, u.most);
   }
-  maker_.at(theta_);  // refused in words, where the model cannot have them
+  maker_.at(theta_);  // throws InputError if they are invalid
 }
 
 void ShootingSolver::findSizes(const ShootingStage& stage) {
@@ -124,7 +125,7 @@ void ShootingSolver::findSizes(const ShootingStage& stage) {
   std::vector<Range> ranges;
   for (Eigen::Index i = 0; i < sizes.size(); ++i) {
     const double moving = shooting_.movingAll()[i];
-    sizes[i] = std::max(sizes[i], sizes[i] > 0.0 ? kLeastSize * moving : moving);
+    sizes[i] = std::max(sizes[i], sizes[i] > 0.0 ? kMinSize * moving : moving);
     if (sizes[i] == 0.0) {
       sizes[i] = 1.0;  // without effect
     }
@@ -210,7 +211,7 @@ void ShootingSolver::solve(ShootingStage& stage, bool thorough, const Eigen::Mat
   setBounds(problem);
   ceres::Solver::Options options = quiet(thorough ? kIterations : kStageIterations);
   options.num_threads =
-      std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
+      std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
   if (study_.start_estimated) {
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.linear_solver_ordering = ordering;
@@ -258,7 +259,7 @@ Eigen::MatrixXd ShootingSolver::states(const ShootingStage& stage, std::size_t w
 }
 
 void ShootingSolver::PrepareForEvaluation(bool derivatives, bool new_point) {
-  // Where the model cannot have such parameters, no window is got through.
+  // If the parameters are invalid for the model, every window fails.
   if (new_point || derivatives) {
     shooting_.setPoint(theta_, derivatives);
   }
@@ -295,7 +296,7 @@ LeftOver ShootingSolver::leftOver(const ShootingStage& stage) const {
   left.deviation = std::sqrt(squares / std::max(1.0, free));
   const double persistence = squares > 0.0 ? products / squares : 0.0;
   if (persistence * std::sqrt(rows) > kSurelyPersistent) {
-    left.rows_alike = std::min((1.0 + persistence) / (1.0 - std::min(persistence, kMostPersistent)),
+    left.rows_alike = std::min((1.0 + persistence) / (1.0 - std::min(persistence, kMaxPersistent)),
                                static_cast<double>(longest));
   }
   return left;

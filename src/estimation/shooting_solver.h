@@ -1,5 +1,5 @@
-// Solves for the unknowns of a study and the starts of its windows, by Ceres: the parts that
-// fitByShooting() is made of.
+// Solves for the unknowns of a study and the starts of its windows with Ceres: the steps of
+// fitByShooting().
 #pragma once
 
 #include <ceres/cost_function.h>
@@ -17,35 +17,36 @@
 
 namespace whirl_twin {
 
-// What a fit holds of its unknowns: their distances from where they start.
+// Regularization of a fit: the distances of its unknowns from their start values.
 //
-// Where runs tell numbers only as multiples of each other, all may be any number of times as large,
-// and it is the times that count: of a number that cannot be 0 the distance is a logarithm. So it
-// is of one that can be, a friction say, but only upwards, for 0 is not far from where it starts.
+// If runs identify only ratios of numbers, all may grow by any factor, and the factor counts: the
+// distance of a number that cannot be 0 is a logarithm. For one that can be 0, such as a friction,
+// it is so only upwards, since 0 is not far from its start value.
 
-/// Distances from the start, in sizes of the unknowns.
+/// Distances from the start values, relative to the sizes of the unknowns.
 class DistanceFromStart {
  public:
   DistanceFromStart() = default;
-  /// ranges: of the unknowns' values; those that are not kAny start above 0, at their size.
+  /// ranges: of the unknowns' values; unknowns with a range other than kAny start above 0, at their
+  /// size.
   DistanceFromStart(Eigen::VectorXd start, Eigen::VectorXd sizes, std::vector<Range> ranges);
 
   const Eigen::VectorXd& sizes() const { return sizes_; }
   double of(Eigen::Index unknown, double value) const;     ///< [-], 0 at the start
-  double slope(Eigen::Index unknown, double value) const;  ///< of that, by the value
+  double slope(Eigen::Index unknown, double value) const;  ///< derivative of it by the value
 
  private:
-  /// Is the distance of this value a logarithm?
+  /// Is the distance of this value logarithmic?
   bool byTimes(Eigen::Index unknown, double value) const;
 
   Eigen::VectorXd start_, sizes_;
   std::vector<Range> ranges_;
 };
 
-/// rows * distances counts as residuals do [held x unknowns]. Block: the unknowns.
+/// The residuals rows * distances [held x unknowns]. Block: the unknowns.
 class HeldCost final : public ceres::CostFunction {
  public:
-  /// The distance outlives it.
+  /// The distance must outlive it.
   HeldCost(Eigen::MatrixXd rows, const DistanceFromStart& distance);
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
 
@@ -54,31 +55,31 @@ class HeldCost final : public ceres::CostFunction {
   const DistanceFromStart& distance_;
 };
 
-/// Windows, each with the start that was found for it.
+/// Windows with their estimated starts.
 struct ShootingStage {
   std::vector<Window> windows;
   std::vector<Eigen::VectorXd> starts;
 };
 
-/// What windows leave between measured and predicted.
+/// Residuals of windows.
 struct LeftOver {
-  double deviation = 0.0;  ///< of a residual
-  /// Residuals in a row that tell no more than one of them, for they go on from one to the next as
-  /// those of a model that is wrong do: (1 + r) / (1 - r) of their correlation r; 1 of white ones.
+  double deviation = 0.0;  ///< standard deviation of a residual
+  /// Number of consecutive residuals with the information of one, because they are correlated, as
+  /// with a wrong model: (1 + r) / (1 - r) with their lag-one correlation r; 1 for white ones.
   double rows_alike = 1.0;
 
-  /// Of a residual that stands for itself alone.
+  /// Equivalent standard deviation of an independent residual.
   double deviationAlone() const { return deviation * std::sqrt(rows_alike); }
 };
 
 class ShootingSolver final : public ceres::EvaluationCallback {
  public:
-  /// A first part of a window: a model that is far off follows for so long [s].
+  /// Length of the first part of a window [s], over which even a poor model follows.
   static constexpr double kFirstWindow = 0.5;
-  static constexpr double kLonger = 3.0;  ///< from one part, or one stage, to the next
+  static constexpr double kLonger = 3.0;  ///< factor from one part, or stage, to the next
 
-  /// At the start values of the study, which outlives it. Throws Refusal for those that the model
-  /// cannot have.
+  /// At the start values of the study, which must outlive it. Throws InputError if they are invalid
+  /// for the model.
   explicit ShootingSolver(const FitStudy& study) : ShootingSolver(study, CandidateMaker(study)) {}
   ShootingSolver(const FitStudy& study, CandidateMaker maker);
 
@@ -88,27 +89,27 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   int iterations() const { return iterations_; }
   bool converged() const { return converged_; }
 
-  /// Finds what changes of the unknowns are measured by: their start values; of those that start at
-  /// 0, or next to it, what moves the predicted motion in these windows.
+  /// Determines the sizes of the unknowns: their start values; if these are (nearly) 0, the change
+  /// that moves the predicted motion in these windows.
   void findSizes(const ShootingStage& stage);
   const DistanceFromStart& distance() const { return distance_; }
-  /// Rows of a HeldCost by which each unknown is known at its start to its own size, by residuals
-  /// of this deviation.
+  /// Rows of a HeldCost that fix each unknown at its start value with a standard deviation of its
+  /// size, for residuals of this deviation.
   Eigen::MatrixXd aboutStart(double deviation) const;
 
-  /// Brings the unknowns to where the equations of motion hold along the runs, roughly, and along
-  /// what these do not tell no further than they have to.
+  /// Moves the unknowns to an approximate minimum of the equation error along the runs, and in
+  /// unidentifiable directions no further than necessary.
   void regress();
-  /// The windows [s] of the runs that are trained on, or of one run, with measured starts.
+  /// The windows [s] of the training runs, or of one run, with measured starts.
   ShootingStage stageOf(double length, std::optional<std::size_t> run);
-  /// The starts alone, over longer and longer parts of their windows. False for a window that is
-  /// not got through.
+  /// Fits the starts alone, over increasing parts of their windows. False for a window whose motion
+  /// stops.
   std::vector<bool> findStarts(ShootingStage& stage);
-  /// Unknowns and starts together; `thorough` for the last stage. Throws RunFailure.
+  /// Fits unknowns and starts together; `thorough` for the last stage. Throws RunFailure.
   void solve(ShootingStage& stage, bool thorough, const Eigen::MatrixXd& held);
   LeftOver leftOver(const ShootingStage& stage) const;
   NormalEquations normalEquations(const ShootingStage& stage);
-  /// Predicted states of a stage's window [2n x rows]; NaN where it is not got through.
+  /// Predicted states of a stage's window [2n x rows]; NaN where the motion stops.
   Eigen::MatrixXd states(const ShootingStage& stage, std::size_t window);
 
   void PrepareForEvaluation(bool derivatives, bool new_point) override;

@@ -7,13 +7,13 @@
 
 #include "algebra/constants.h"
 #include "algebra/dense.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kHalfBand = 3.0e-3;  // of the lowest natural frequency
+constexpr double kHalfBand = 3.0e-3;  // relative to the lowest natural frequency
 
 /// q' = v, v' = -M^-1 ((K + N) q + (C + G) v).
 Eigen::MatrixXd stateMatrix(const Linearization& at) {
@@ -65,9 +65,9 @@ void DrivenWhirl::setModes(double centre) {
   excitation_ = inverse_.rightCols(n) * mass.solve(forces_);
 }
 
-/// The modes of the band of a speed.
+/// Selects the mode shapes of the speed's band.
 void DrivenWhirl::setSpeed(double speed) {
-  constexpr double kBeyond = 1.2;  // so that a speed at the edge does not go to and fro
+  constexpr double kBeyond = 1.2;  // hysteresis at the edges of a band
   speed_ = speed;
   if (!rotor_.speed_dependent || std::fabs(speed - centre_) < kBeyond * half_band_) {
     return;
@@ -94,8 +94,8 @@ void DrivenWhirl::advance(double time, double turn, double speed) {
   const double before = speed_;
   const double mean = turn / time;
   setSpeed(speed);
-  // Of theta = mean t + ((speed - before) / (2 time)) t (t - time) the second part is small: its
-  // mean.
+  // Of theta = mean t + ((speed - before) / (2 time)) t (t - time) the second term is small:
+  // replaced by its mean.
   const std::complex<double> bent = 1.0 - kImaginaryUnit * (speed - before) * time / 12.0;
   const std::complex<double> turned = std::polar(1.0, turn);
   for (Eigen::Index k = 0; k < modal_.rows(); ++k) {
@@ -105,7 +105,7 @@ void DrivenWhirl::advance(double time, double turn, double speed) {
     const bool resonant = std::abs(away) * time < 1.0e-7;
     const std::complex<double> steady =
         resonant ? time * decayed : (turned - decayed) / away * bent;
-    // -(e^(i theta))'' by parts.
+    // -(e^(i theta))'' integrated by parts.
     const std::complex<double> inertial =
         -(kImaginaryUnit * speed * turned - kImaginaryUnit * before * decayed) -
         s * (turned - decayed) - s * s * steady;
@@ -119,11 +119,11 @@ void DrivenWhirl::advance(double time, double turn, double speed) {
 
 namespace {
 
-constexpr double kMaxReadingGap = 2.0;  // s: across it the shaft's motion is filled in
-constexpr double kFinestSteps = 1.5;    // of the usual distance, that is one step
-constexpr double kMostSteps = 20000.0;
+constexpr double kMaxReadingGap = 2.0;  // s: up to it the shaft's motion is interpolated
+constexpr double kFinestSteps = 1.5;    // of the usual interval, for a single step
+constexpr double kMaxSteps = 20000.0;
 
-/// Of a unit of unbalance at a station.
+/// Force of a unit of unbalance at a station.
 ShaftForce unitUnbalance(const Station& station) {
   return {station.along_x.cast<std::complex<double>>() - kImaginaryUnit * station.along_y, 1, true};
 }
@@ -134,7 +134,7 @@ std::vector<ShaftForce> forcesOf(const LinearRotor& rotor,
   for (const BalancingPlane& plane : planes) {
     forces.push_back(unitUnbalance(plane.station));
   }
-  // The model's bow is known; what of its own is out of balance is what is asked for.
+  // Whirl due to the model's bow is known; only the whirl due to unbalance is fitted.
   ShaftForce bow{Eigen::VectorXcd::Zero(rotor.dof()), 1, false};
   for (const ShaftForce& force : rotor.forces) {
     if (force.harmonic == 1 && !force.inertial) {
@@ -145,7 +145,7 @@ std::vector<ShaftForce> forcesOf(const LinearRotor& rotor,
   return forces;
 }
 
-/// What a probe shows of e^(i w t).
+/// Probe reading of e^(i w t).
 std::complex<double> seen(const RotorProbe& probe, double speed) {
   const std::complex<double> delayed = std::polar(1.0, -speed * probe.delay);
   return probe.bandwidth > 0.0
@@ -175,26 +175,26 @@ UnbalanceFit::UnbalanceFit(const LinearRotor& rotor, const std::vector<Balancing
       weight_[static_cast<Eigen::Index>(c)] = 1.0 / probes[c].deviation;
     }
   }
-  equations_ = PartedLeastSquares(first_mean_ + weight_.size(), weight_.size());
+  equations_ = JackknifeLeastSquares(first_mean_ + weight_.size(), weight_.size());
 }
 
-/// The rotor follows the shaft, or begins anew: false; over a hole of some samples by a motion
-/// between its ends.
+/// Advances the rotor with the shaft; over some missing samples with an interpolated motion. False:
+/// it was restarted.
 bool UnbalanceFit::turnTo(const ProbeReading& reading) {
   const double time = reading.time - last_.time;
   const double turn = kTwoPi * static_cast<double>(reading.turns - last_.turns) +
                       (reading.remainder - last_.remainder);
   const double skew = turn - 0.5 * (last_.speed + reading.speed) * time;
-  // A shaft that was lost meanwhile may have been found with another number of turns.
+  // After a loss of the shaft's phase the number of turns may be different.
   if (!started_ || !(time > 0.0) || time > kMaxReadingGap || std::fabs(skew) > 0.5 * kTwoPi) {
     whirl_.start(reading.speed);
     started_ = true;
     return false;
   }
-  // A distance that is not the usual one, such as that of two stamps too near, is soon forgotten.
+  // An unusual interval, such as that of two stamps too close, is soon forgotten.
   step_ = step_ == 0.0 ? time : step_;
   const int steps = time > kFinestSteps * step_
-                        ? static_cast<int>(std::ceil(std::min(time / step_ - 1.0e-6, kMostSteps)))
+                        ? static_cast<int>(std::ceil(std::min(time / step_ - 1.0e-6, kMaxSteps)))
                         : 1;
   step_ = std::clamp(time, 0.5 * step_, 2.0 * step_);
   const double part = 1.0 / steps;
@@ -232,7 +232,7 @@ void UnbalanceFit::take(const ProbeReading& reading) {
     const double value = reading.values[static_cast<Eigen::Index>(c)];
     if (std::isfinite(value)) {
       double& offset = offset_[static_cast<Eigen::Index>(c)];
-      offset = std::isnan(offset) ? value : offset;  // so that a large gap costs no digits
+      offset = std::isnan(offset) ? value : offset;  // keeps digits in case of a large gap
       add(c, value - offset, amplitudes, turned, reading.speed);
     }
   }
@@ -269,7 +269,7 @@ void UnbalanceFit::add(std::size_t probe, double value, const Eigen::MatrixXcd& 
 }
 
 UnbalanceEstimate UnbalanceFit::told() const {
-  const PartedSolution solution = equations_.solve();
+  const JackknifeSolution solution = equations_.solve();
   const auto phasor = [&](Eigen::Index place) {
     const auto k = static_cast<std::size_t>(place);
     PhasorEstimate estimate;
@@ -292,7 +292,7 @@ UnbalanceEstimate UnbalanceFit::told() const {
                  ? std::complex<double>()
                  : std::complex<double>(solution.untold(place, i), solution.untold(place + 1, i));
     };
-    UntoldCombination untold;
+    UnidentifiableCombination untold;
     for (std::size_t j = 0; j < planes_.size(); ++j) {
       untold.planes.push_back(part(2 * static_cast<Eigen::Index>(j)));
     }

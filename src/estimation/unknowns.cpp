@@ -11,8 +11,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
-constexpr double kLeastOfPositive = 1.0e-6;  // of the start: a positive number is not 0
-constexpr double kLeastScale = 1.0e-3;
+constexpr double kMinOfPositive = 1.0e-6;  // relative to the start: a positive number is not 0
+constexpr double kMinScale = 1.0e-3;
 
 void addOnce(std::vector<Unknown>& all, Unknown unknown) {
   const bool known = std::any_of(all.begin(), all.end(), [&](const Unknown& u) {
@@ -35,7 +35,7 @@ Unknown parameterUnknown(const FittedParameter& fitted, const ModelInfo& model) 
     if (parameter.name == fitted.path) {
       u.unit = parameter.unit;
       if (parameter.range == Range::kPositive) {
-        u.least = std::max(u.least, kLeastOfPositive * fitted.start);
+        u.least = std::max(u.least, kMinOfPositive * fitted.start);
       } else if (parameter.range == Range::kNotNegative) {
         u.least = std::max(u.least, 0.0);
       }
@@ -44,7 +44,7 @@ Unknown parameterUnknown(const FittedParameter& fitted, const ModelInfo& model) 
   return u;
 }
 
-/// One number of a sensor; name and subject without the run.
+/// A number of a sensor; name and subject without the run.
 struct SensorNumber {
   const GivenOrFitted& number;
   Unknown unknown;
@@ -58,7 +58,7 @@ std::vector<SensorNumber> numbersOf(const StudyRun& run) {
                     c.offset.value, -kNoBound, kNoBound}});
     all.push_back({c.scale,
                    {Unknown::Kind::kChannelScale, c.name, c.name + ".scale", "-", c.scale.value,
-                    kLeastScale, kNoBound}});
+                    kMinScale, kNoBound}});
   }
   for (const MeasuredInput& i : run.inputs) {
     all.push_back({i.offset,
@@ -66,7 +66,7 @@ std::vector<SensorNumber> numbersOf(const StudyRun& run) {
                     -kNoBound, kNoBound}});
     all.push_back({i.scale,
                    {Unknown::Kind::kInputScale, i.name, i.name + ".scale", "-", i.scale.value,
-                    kLeastScale, kNoBound}});
+                    kMinScale, kNoBound}});
     all.push_back({i.delay,
                    {Unknown::Kind::kInputDelay, i.name, i.name + ".delay", "s", i.delay.value,
                     -kMaxInputDelay, kMaxInputDelay}});
@@ -127,7 +127,7 @@ InputSignal signalOf(const MeasuredRun& data, const MeasuredInput& input) {
   std::vector<double> values;
   for (std::size_t i = 0; i < column.size(); ++i) {
     const std::int64_t at = std::llround((data.time[i] + input.delay.value) * 1.0e9);
-    if (instants.empty() || at > instants.back()) {  // rows nearer than a nanosecond are one
+    if (instants.empty() || at > instants.back()) {  // rows closer than a nanosecond are merged
       instants.push_back(at);
       values.push_back(input.scale.value * column[i] + input.offset.value);
     }

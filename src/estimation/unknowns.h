@@ -1,6 +1,6 @@
-// The numbers that a fit finds, as one vector: parameters of the system first, then zeros, scales
-// and delays of sensors. A zero or a scale of the same coordinate or input is one unknown, in
-// whichever runs it is asked for, or one for each run.
+// The unknowns of a fit as one vector: parameters of the system first, then offsets, scales and
+// delays of sensors. An offset or a scale of a coordinate or input is one unknown for all runs that
+// specify it, or one for each run.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,22 +27,22 @@ struct Unknown {
 
   Kind kind = Kind::kParameter;
   std::string subject;  ///< path of a parameter; name of a channel or an input
-  std::string name;     ///< as told: `mass1`, `theta1.offset`, `torque1.delay`
-  std::string unit;     ///< "" where the model's are not known, of a path into a table
+  std::string name;     ///< as reported: `mass1`, `theta1.offset`, `torque1.delay`
+  std::string unit;     ///< "" where not known, of a path into a table
   double start = 0.0;
   double least = 0.0, most = 0.0;                 ///< may be infinite
-  std::optional<std::size_t> run = std::nullopt;  ///< the only one that it belongs to
+  std::optional<std::size_t> run = std::nullopt;  ///< the only one that uses it
 
   bool concerns(std::size_t a_run) const { return !run || *run == a_run; }
-  /// What its changes are measured by where it has this value; 0 where it has none.
+  /// Reference magnitude of its changes at this value; 0 if it has none.
   double size(double value) const { return std::fmax(std::fabs(value), std::fabs(start)); }
 };
 
-/// Those of a study, in order. Parameters that must not be negative have 0 as their least value.
+/// The unknowns of a study, in order. Parameters that must not be negative have 0 as lower bound.
 std::vector<Unknown> unknownsOf(const FitStudy& study, const SharedSystem& system);
 
-/// A study at one point: the system with these parameters, and what its runs measured with these
-/// zeros, scales and delays.
+/// A study at one point: the system with these parameters, and its runs with these offsets, scales
+/// and delays.
 struct Candidate {
   SharedSystem system;
   std::vector<StudyRun> runs;                    ///< without `data`
@@ -51,21 +51,21 @@ struct Candidate {
 
 class CandidateMaker {
  public:
-  /// The study outlives it.
+  /// The study must outlive it.
   explicit CandidateMaker(const FitStudy& study);
 
-  /// The unknowns that a run has for itself, all others at these values.
+  /// The unknowns of one run alone, all others fixed at these values.
   CandidateMaker ofRun(std::size_t run, const Eigen::VectorXd& theta) const;
 
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
   const BuiltScene& scene() const { return scene_; }
-  /// Throws Refusal for parameters that the model cannot have.
+  /// Throws InputError for parameters that are invalid for the model.
   Candidate at(const Eigen::VectorXd& theta) const;
 
  private:
   const FitStudy& study_;
   BuiltScene scene_;
-  std::vector<Unknown> known_;  ///< at these values:
+  std::vector<Unknown> known_;  ///< fixed, at these values:
   Eigen::VectorXd known_values_;
   std::vector<Unknown> unknowns_;
 };

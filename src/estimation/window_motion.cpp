@@ -10,7 +10,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kStartSeconds = 0.04;  // of rows that a measured start is made of
+constexpr double kStartSeconds = 0.04;  // of rows for a measured start
 constexpr std::size_t kStartRows = 7;   // at least
 constexpr double kShortLeftOver = 0.5;  // of a window
 
@@ -18,7 +18,7 @@ std::int64_t instantInNanoseconds(double seconds) {
   return std::llround(seconds * 1.0e9);
 }
 
-/// The steps of one window, one after another, each with its two ends.
+/// Integrates the steps of a window; keeps the states at both ends of the last one.
 class Steps {
  public:
   Steps(const FitStudy& study, const BuiltScene& scene, const Candidate& candidate,
@@ -28,7 +28,7 @@ class Steps {
         drive_(scene.driveOf(*candidate.system)),
         inputs_(candidate.inputs[window.run]),
         stepper_(candidate.system->setup().system(candidate.system->integrator,
-                                                  Excitation(drive_, &inputs_), seconds_,
+                                                  StepContext(drive_, &inputs_), seconds_,
                                                   candidate.system->spec.substeps)),
         dof_(static_cast<Eigen::Index>(stepper_->dof())),
         before_(2 * dof_ + 1),
@@ -53,7 +53,7 @@ class Steps {
     stand();
     return true;
   }
-  /// Coordinates and rates at an instant [s] in the last step.
+  /// Coordinates and rates at an instant [s] within the last step.
   template <class Column>
   void write(double time, Column&& out) const {
     const double s = 1.0 + (time - static_cast<double>(at_) * 1.0e-9) / seconds_;
@@ -91,13 +91,13 @@ class Steps {
   std::int64_t at_;                 // [ns], of `after_`
 };
 
-/// Value and slope at x = 0 of the quadratic through points (least squares).
+/// Least-squares quadratic through points: value and slope at x = 0.
 std::pair<double, double> quadraticAtZero(const std::vector<double>& x,
                                           const std::vector<double>& y) {
   Eigen::MatrixXd a(static_cast<Eigen::Index>(x.size()), 3);
   const double width = std::max(std::fabs(x.front()), std::fabs(x.back()));
   if (width == 0.0) {
-    return {y.front(), 0.0};  // a row alone
+    return {y.front(), 0.0};  // a single row
   }
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double u = x[i] / width;
@@ -126,7 +126,7 @@ std::vector<Window> windowsOf(const FitStudy& study, std::size_t run, double len
       break;
     }
     const std::size_t upto = whole ? std::max(last, first + 1) : time.size() - 1;
-    if (whole && upto == first + 1 && !all.empty()) {  // alone before a gap, it tells no motion
+    if (whole && upto == first + 1 && !all.empty()) {  // a single row before a gap has no motion
       ++all.back().count;
       first = upto;
       continue;

@@ -91,27 +91,27 @@ struct DormandPrince8 {
     using dormand_prince::kNodes;
     using dormand_prince::kStages;
     using dormand_prince::kWeights;
-    using Lanes = whirl_twin::Lanes<n>;
-    const Lanes q0(state.q);
-    const Lanes v0(state.v);
-    std::array<Lanes, kStages> rates;
-    std::array<Lanes, kStages> accelerations;
-    Lanes q = q0;
-    Lanes v = v0;
-    Lanes dq{};
-    Lanes dv{};
+    using SimdVector = whirl_twin::SimdVector<n>;
+    const SimdVector q0(state.q);
+    const SimdVector v0(state.v);
+    std::array<SimdVector, kStages> rates;
+    std::array<SimdVector, kStages> accelerations;
+    SimdVector q = q0;
+    SimdVector v = v0;
+    SimdVector dq{};
+    SimdVector dv{};
     double energy = 0.0;
     // A loop, not twelve copies of the equations: what they make of the parameters alone is then
     // computed once a step.
     for (std::size_t k = 0; k < kStages; ++k) {
       rates[k] = v;
       // The next stage as far as it is known before this one's acceleration: its q entirely, so
-      // that its sines need not wait; of its v all but the last term.
-      Lanes q_next = q0;
-      Lanes v_next = v0;
+      // that its sines can be computed early; of its v all but the last term.
+      SimdVector q_next = q0;
+      SimdVector v_next = v0;
       const std::size_t next = k + 1 < kStages ? k + 1 : k;
-      Lanes q_sum{};
-      Lanes v_sum{};
+      SimdVector q_sum{};
+      SimdVector v_sum{};
       for (std::size_t j = 0; j < k; ++j) {
         q_sum.add(kA[next][j], rates[j]);
         v_sum.add(kA[next][j], accelerations[j]);
@@ -121,7 +121,7 @@ struct DormandPrince8 {
       v_next.add(h, v_sum);
 
       const auto found = equation(q.array(), v.array(), offset + kNodes[k] * h);
-      accelerations[k] = Lanes(found.acceleration);
+      accelerations[k] = SimdVector(found.acceleration);
       v_next.add(h * kA[next][k], accelerations[k]);
       dq.add(h * kWeights[k], v);
       dv.add(h * kWeights[k], accelerations[k]);

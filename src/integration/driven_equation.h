@@ -1,4 +1,4 @@
-// The equation that a step integrates: a model and the motion of its shaft. Inputs: called_step.h.
+// The equation that a step integrates: a model and the motion of its shaft. Inputs: erased_step.h.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace whirl_twin {
 
-/// A model whose energies and forces do not depend on its shaft's angle says so.
+/// Whether the energies and forces depend on the shaft angle; a model can override this.
 template <class Model, class = void>
 struct HasShaftAngle : std::bool_constant<Model::kHasShaft> {};
 template <class Model>
@@ -30,7 +30,7 @@ struct DrivenEquation {
   const Drive& drive;
   double time;  ///< [s], simulated, at the start of the step
 
-  WHIRL_TWIN_INLINE Moment<double> moment(double offset) const {
+  WHIRL_TWIN_INLINE EvaluationPoint<double> moment(double offset) const {
     if constexpr (Model::kHasShaft) {
       const ShaftMotion shaft =
           HasShaftAngle<Model>::value ? drive.at(offset) : drive.withoutAngle(offset);
@@ -40,19 +40,19 @@ struct DrivenEquation {
     }
   }
   WHIRL_TWIN_INLINE Derivative<n> evaluate(const Array& q, const Array& v,
-                                           const Moment<double>& at) const {
+                                           const EvaluationPoint<double>& at) const {
     return derivative(model, q, v, at);
   }
   WHIRL_TWIN_INLINE Derivative<n> operator()(const Array& q, const Array& v, double offset) const {
     return evaluate(q, v, moment(offset));
   }
   Jacobian jacobian(const Array& q, const Array& v, double offset) const {
-    const Moment<double> at = moment(offset);
+    const EvaluationPoint<double> at = moment(offset);
     return jacobian(q, v, derivative(model, q, v, at).acceleration, at);
   }
   /// Where the acceleration is that of further forces, too.
   Jacobian jacobian(const Array& q, const Array& v, const Array& acceleration,
-                    const Moment<double>& at) const {
+                    const EvaluationPoint<double>& at) const {
     return accelerationJacobian(linearization(model, q, v, acceleration, at));
   }
   static constexpr bool hasInputs() { return false; }

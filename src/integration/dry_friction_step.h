@@ -1,13 +1,13 @@
-// A step of a system whose contacts rub dry (mechanics/dry_friction.h): in parts, during each of
-// which every contact slides one way or is held, so that the equations of a part are smooth and a
-// method has its order in it.
+// A step of a system with dry friction (mechanics/dry_friction.h): divided into sub-steps in which
+// every contact slides in one direction or sticks, so that the equations of a sub-step are smooth
+// and a method keeps its order.
 //
-// A part ends where a sliding contact comes to rest or the friction of a held one is used up; that
-// event is found by false position (the Illinois rule, Dahlquist & Bjoerck, Numerical Methods,
-// 6.4.3) over steps of the method from the part's start, to rounding. A sliding speed that dips
-// through zero and back within a part shows in the cubic through its ends. Which contacts slide
-// depends on the state alone: nothing has to be known of earlier steps but whether a method's past
-// is of the same equations.
+// A sub-step ends where a sliding contact comes to rest or the friction of a sticking one is
+// exhausted; that event is located by false position (the Illinois rule, Dahlquist & Bjoerck,
+// Numerical Methods, 6.4.3) over steps of the method from the start of the sub-step, to rounding. A
+// sliding speed that crosses zero twice within a sub-step is detected by the cubic through its
+// ends. Which contacts slide depends on the state alone: the only information from earlier steps is
+// whether a method's history belongs to the same equations.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "integration/called_equation.h"
+#include "integration/erased_ode.h"
 #include "integration/motion_state.h"
 #include "integration/sliver.h"
 #include "mechanics/dry_friction.h"
@@ -25,39 +25,38 @@ namespace whirl_twin {
 template <std::size_t n>
 class DryFrictionStep {
  public:
-  /// The next step knows nothing of the one before.
+  /// Discards the history: the next step does not use the one before.
   void restart() { has_past_ = false; }
-  /// Did the step before pass without an event?
+  /// Whether the step before had no event.
   bool hasPast() const { return has_past_; }
 
-  /// Takes a state one step of h [s] of a method on; `past`: with what the method knows of the
-  /// steps before. A reference, so that what calls it is compiled once for all methods.
+  /// Advances a state by one step of h [s] of a method; `past`: with the method's history. A
+  /// type-erased reference, so that the caller is compiled once for all methods.
   class Advance {
    public:
     template <class F>
     explicit Advance(const F& f)
         : f_(&f),
-          call_([](const void* self, const CalledEquation<n>& equation, double offset, double h,
+          call_([](const void* self, const ErasedOde<n>& equation, double offset, double h,
                    MotionState<n>& state, bool past) {
             return (*static_cast<const F*>(self))(equation, offset, h, state, past);
           }) {}
-    StepStatus operator()(const CalledEquation<n>& equation, double offset, double h,
+    StepStatus operator()(const ErasedOde<n>& equation, double offset, double h,
                           MotionState<n>& state, bool past) const {
       return call_(f_, equation, offset, h, state, past);
     }
 
    private:
     const void* f_;
-    StepStatus (*call_)(const void*, const CalledEquation<n>&, double, double, MotionState<n>&,
-                        bool);
+    StepStatus (*call_)(const void*, const ErasedOde<n>&, double, double, MotionState<n>&, bool);
   };
 
-  [[gnu::noinline]] StepStatus take(CalledEquation<n> equation, double offset, double h,
+  [[gnu::noinline]] StepStatus take(ErasedOde<n> equation, double offset, double h,
                                     MotionState<n>& state, const Advance& advance) noexcept {
     const double end = offset + h;
     bool past = has_past_;
     has_past_ = false;
-    for (int part = 0; part < kMostParts; ++part) {
+    for (int part = 0; part < kMaxParts; ++part) {
       const DryState<n> dry = equation.dryStateAt(state.q, state.v, offset);
       equation.dry = &dry;
       past = past && dry.held == last_.held && slides(dry) == slides(last_);
@@ -93,23 +92,24 @@ class DryFrictionStep {
     double offset, length;  // [s]
   };
 
-  static constexpr int kMostParts = 64;
-  static constexpr int kMostTrials = 80;
-  static constexpr double kAtOnce = 1.0e-9;     ///< events nearer to each other are one
-  static constexpr double kRounding = 1.0e-15;  ///< of what is left, of its size in the step
+  static constexpr int kMaxParts = 64;
+  static constexpr int kMaxTrials = 80;
+  static constexpr double kAtOnce = 1.0e-9;     ///< closer events are merged
+  static constexpr double kRounding = 1.0e-15;  ///< of the event function, relative to its size in
+                                                ///< the step
 
-  /// The directions of what slides.
+  /// The directions of the sliding contacts.
   static ContactNumbers slides(const DryState<n>& dry) {
     ContactNumbers share{};
-    for (std::size_t j = 0; j < kMostContacts; ++j) {
+    for (std::size_t j = 0; j < kMaxContacts; ++j) {
       share[j] = dry.held[j] ? 0.0 : dry.share[j];
     }
     return share;
   }
 
-  /// What is left to the event of a contact: of one that slides its speed, of one that is held the
-  /// share that is not used.
-  ContactNumbers left(const CalledEquation<n>& equation, double offset,
+  /// Event functions of the contacts: the speed of a sliding contact, the unused share of friction
+  /// of a sticking one.
+  ContactNumbers left(const ErasedOde<n>& equation, double offset,
                       const MotionState<n>& state) const {
     const DryContacts<n>& contacts = equation.model.dryContacts();
     const DryState<n>& dry = *equation.dry;
@@ -125,9 +125,9 @@ class DryFrictionStep {
     return left;
   }
 
-  /// The part of the step after which the first contact changes, 1 without any; `found` is the
+  /// The fraction of the step after which the first contact changes, 1 without any; `found` is the
   /// state then.
-  double firstEvent(const CalledEquation<n>& equation, const Start& start, const DryState<n>& dry,
+  double firstEvent(const ErasedOde<n>& equation, const Start& start, const DryState<n>& dry,
                     MotionState<n>& found, const Advance& advance, StepStatus& status) const {
     const DryContacts<n>& contacts = equation.model.dryContacts();
     const ContactNumbers at_start = left(equation, start.offset, start.state);
@@ -136,7 +136,7 @@ class DryFrictionStep {
     for (std::size_t j = 0; j < contacts.count; ++j) {
       scale[j] = std::max({std::fabs(at_start[j]), std::fabs(at_end[j]), 1.0e-300});
     }
-    // The least that is left of any contact, at a part of the step.
+    // The smallest event function of any contact, at a fraction of the step.
     const auto leastOf = [&](const ContactNumbers& of) {
       double least = 1.0;
       for (std::size_t j = 0; j < contacts.count; ++j) {
@@ -167,7 +167,7 @@ class DryFrictionStep {
     }
     double low = 0.0;
     double at_low = leastOf(at_start);
-    for (int i = 0; at_low <= 0.0 && i < kMostTrials / 2; ++i) {  // it has just begun to slide
+    for (int i = 0; at_low <= 0.0 && i < kMaxTrials / 2; ++i) {  // it has just begun to slide
       const double part = 0.5 * high;
       const double least = leastAt(part);
       if (status != StepStatus::kOk) {
@@ -184,7 +184,7 @@ class DryFrictionStep {
     }
     double reached = at_high;
     for (int i = 0;
-         i < kMostTrials && at_low > 0.0 && reached < -kRounding && high - low > kSliver * high;
+         i < kMaxTrials && at_low > 0.0 && reached < -kRounding && high - low > kSliver * high;
          ++i) {
       const double guess = low + (high - low) * at_low / (at_low - at_high);
       const double part = guess > low && guess < high ? guess : 0.5 * (low + high);
@@ -204,9 +204,9 @@ class DryFrictionStep {
         found = trial;
       }
     }
-    // What has come to rest is held from here on, or turns.
+    // A contact that has come to rest sticks from here on, or reverses.
     const ContactNumbers now = left(equation, start.offset + high * start.length, found);
-    std::array<bool, kMostContacts> rests = dry.held;
+    std::array<bool, kMaxContacts> rests = dry.held;
     for (std::size_t j = 0; j < contacts.count; ++j) {
       rests[j] = dry.held[j] || now[j] <= kAtOnce * scale[j];
     }
@@ -216,7 +216,7 @@ class DryFrictionStep {
 
   /// Where in the step the speed of a sliding contact is lowest below zero although it is not so at
   /// the ends, by the cubic through them; 1: nowhere.
-  double lowestDip(const CalledEquation<n>& equation, const Start& start, const DryState<n>& dry,
+  double lowestDip(const ErasedOde<n>& equation, const Start& start, const DryState<n>& dry,
                    const MotionState<n>& end) const {
     const DryContacts<n>& contacts = equation.model.dryContacts();
     double where = 1.0;
@@ -257,7 +257,7 @@ class DryFrictionStep {
   }
 
   /// Contacts that are at rest do not slide, not even by rounding.
-  static void stop(const DryContacts<n>& contacts, const std::array<bool, kMostContacts>& rests,
+  static void stop(const DryContacts<n>& contacts, const std::array<bool, kMaxContacts>& rests,
                    MotionState<n>& state) {
     // Twice, as the second contact may move what the first has stopped.
     for (int round = 0; round < 2; ++round) {
@@ -281,10 +281,10 @@ class DryFrictionStep {
       }
     }
   }
-  /// The direction of a contact without what is along that of the other, if that rests too: a
-  /// change of rates along it leaves the other at rest.
+  /// The direction of a contact, orthogonal to that of the other if that sticks too: a change of
+  /// rates along it keeps the other sticking.
   static std::array<double, n> across(const DryContacts<n>& contacts,
-                                      const std::array<bool, kMostContacts>& rests, std::size_t j) {
+                                      const std::array<bool, kMaxContacts>& rests, std::size_t j) {
     std::array<double, n> g = contacts.at[j].direction;
     const std::size_t k = 1 - j;
     if (!rests[k]) {

@@ -6,13 +6,13 @@
 // (e^(A h) - I) y0 by compensated summation, so a million small steps are as good as one large one.
 // The audited work is y0' W y0 with W = integral of e^(A't) S e^(At), exact likewise.
 //
-// While the speed changes the free motion still goes by its propagator, and the forcing is
+// While the speed changes the free motion is still advanced by its propagator, and the forcing is
 // integrated by Gauss-Legendre quadrature with four nodes at the drive's exact angle (variation of
-// constants): order 8 in h while the highest frequency times h stays below about 1. A force that
-// turns with the shaft is known by a few amplitudes (turning_force.h), any other by evaluating the
-// equations. It needs matrices that do not change with speed: rotating damping excludes it on a
-// drive that changes speed. Inputs are integrated likewise; systems that step exactly with inputs
-// go by their matrices (linear_rotor_stepper.h, linear_stepper.h).
+// constants): order 8 in h while the highest frequency times h stays below about 1. A synchronous
+// force is given by a few amplitudes (synchronous_force.h), any other by evaluating the equations.
+// It requires matrices that do not depend on speed: rotating damping excludes it on a drive that
+// changes speed. Inputs are integrated likewise; systems that step exactly with inputs use their
+// matrices (linear_rotor_stepper.h, linear_stepper.h).
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@
 #include "integration/matrix_exponential.h"
 #include "integration/motion_state.h"
 #include "integration/shaft_phasor.h"
-#include "integration/turning_force.h"
+#include "integration/synchronous_force.h"
 #include "mechanics/lagrangian.h"
 
 namespace whirl_twin {
@@ -72,7 +72,7 @@ class Exponential {
 
   template <class Equation>
   void exactStep(const Equation& equation, double offset, double h, MotionState<n_>& state) {
-    const Moment<double> at = equation.moment(offset);
+    const EvaluationPoint<double> at = equation.moment(offset);
     if (h != exact_step_ || at.speed != exact_speed_) {
       prepareExact(equation, at, h);
     }
@@ -114,7 +114,7 @@ class Exponential {
   }
 
   template <class Equation>
-  void prepareExact(const Equation& equation, const Moment<double>& at, double h) {
+  void prepareExact(const Equation& equation, const EvaluationPoint<double>& at, double h) {
     AugmentedMatrix a = AugmentedMatrix::Zero();
     a.template topLeftCorner<kStates, kStates>() = freeMatrix(equation, 0.0);
     const auto at_angle = [&](double angle, const Array& q, const Array& v) {
@@ -171,7 +171,7 @@ class Exponential {
       s(i, kStates + 1) = s(kStates + 1, i) = 0.5 * (aside - steady);
       s(i, kStates + 2) = s(kStates + 2, i) = 0.5 * steady;
     }
-    // Where all rests: a bow turning between springs that differ, twice a turn.
+    // At equilibrium: a bow rotating between unequal springs, 2X.
     const double half_aside = power(0.25 * kPi, 0, 0.0, 0, 0.0);
     const double aside = power(0.5 * kPi, 0, 0.0, 0, 0.0);
     s(kStates, kStates) = none;
@@ -213,7 +213,7 @@ class Exponential {
   /// motion or the shaft's was changed between.
   template <class Equation>
   Derivative<n_> atStart(const Equation& equation, double offset, const MotionState<n_>& from) {
-    const Moment<double> at = equation.moment(offset);
+    const EvaluationPoint<double> at = equation.moment(offset);
     const auto same = [](double now, double before) {
       return std::fabs(now - before) <= 1.0e-12 * std::fabs(before);
     };
@@ -242,7 +242,7 @@ class Exponential {
       forced_[k] = kGaussWeights[k] * h / rate_scale_ * rest.template rightCols<n>();
     }
     turns_ = force_.find(
-        [&](const Moment<double>& at) {
+        [&](const EvaluationPoint<double>& at) {
           return equation.evaluate(Array{}, Array{}, at).acceleration;
         },
         rate_scale_);
@@ -285,12 +285,12 @@ class Exponential {
   ShaftPhasor phasor_;
   StatesMatrix free_increment_;
   std::array<Eigen::Matrix<double, kStates, n>, kNodes> forced_;
-  TurningForce<n_> force_;  ///< on the system at rest
-  bool turns_ = false;      ///< it is of that form
+  SynchronousForce<n_> force_;  ///< on the system at rest
+  bool turns_ = false;          ///< it is of that form
   // The end of the last step, if it is known.
   bool known_ = false;
   Array known_q_{}, known_v_{};
-  Moment<double> known_at_{};
+  EvaluationPoint<double> known_at_{};
   Derivative<n_> known_derivative_{};
 };
 

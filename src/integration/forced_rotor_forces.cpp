@@ -15,8 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostNewtonSteps = 50;
-constexpr double kLeastShare = 1.0e-3;
+constexpr int kMaxNewtonSteps = 50;
+constexpr double kMinShare = 1.0e-3;
 constexpr double kSame = 1.0e-13;   // of what forces are differences of
 constexpr double kWell = 0.05;      // of what was left before
 constexpr double kNearly = 1.0e-9;  // enough where rounding leaves no more
@@ -31,7 +31,7 @@ bool ForcedRotorStep::pushes(const VectorXd& at, VectorXd& out) noexcept {
     LocalState& state = states_[i];
     state.place = {place[0], place[1]};
     state.rate = {place[2], place[3]};
-    LocalPush push;
+    NodalForce push;
     if (!forces_[i % forces_.size()].law->push(state, push)) {
       return false;
     }
@@ -132,7 +132,8 @@ double ForcedRotorStep::relativeResidual() const noexcept {
   return largest;
 }
 
-/// forced_ as given; where that leads, and what the laws push with there. False: there is no place.
+/// forced_ as given; computes the resulting motion and the forces there. False: outside the
+/// clearance.
 bool ForcedRotorStep::look(const MatrixXd& response) noexcept {
   residual_ = forced_ - given_;
   moved_ = places_;
@@ -163,7 +164,7 @@ StepStatus ForcedRotorStep::newton(const MatrixXd& response) noexcept {
   }
   bool fresh = false;
   double before = kInfinity;
-  for (int step = 0; step < kMostNewtonSteps; ++step) {
+  for (int step = 0; step < kMaxNewtonSteps; ++step) {
     const double off = relativeResidual();
     if (off <= kSame || (fresh && off <= kNearly && off >= 0.5 * before)) {
       return StepStatus::kOk;
@@ -182,7 +183,7 @@ StepStatus ForcedRotorStep::newton(const MatrixXd& response) noexcept {
     double best = 0.0;
     double least = kInfinity;
     double share = 1.0;
-    for (; least >= size && share >= (fresh ? kLeastShare : 1.0); share *= 0.5) {
+    for (; least >= size && share >= (fresh ? kMinShare : 1.0); share *= 0.5) {
       forced_ = start_ + share * change_;
       if (look(response) && residual_.norm() < least) {
         least = residual_.norm();
@@ -203,7 +204,7 @@ StepStatus ForcedRotorStep::newton(const MatrixXd& response) noexcept {
 
 bool ForcedRotorStep::nearlyTouches() const noexcept {
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    const LocalLaw& law = *forces_[i % forces_.size()].law;
+    const NodalForceLaw& law = *forces_[i % forces_.size()].law;
     const auto place = static_cast<Index>(4 * i);
     if (law.room({moved_[place], moved_[place + 1]}) <
         kLastRoom * law.room(Eigen::Vector2d::Zero())) {
@@ -213,8 +214,8 @@ bool ForcedRotorStep::nearlyTouches() const noexcept {
   return false;
 }
 
-/// After begin(), with places_ and given_ of the step: the forces of laws that go on as they do at
-/// its start. However stiff they are, that leads nowhere far.
+/// After begin(), with places_ and given_ of the step: the forces, extrapolated from their
+/// linearization at the start of the step. The extrapolation is bounded for any stiffness.
 void ForcedRotorStep::predict(const MatrixXd& response) noexcept {
   linearize(response);
   residual_ = forced_ - given_;

@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::array<double, 3> kTimes = kRadauNodes;
-constexpr int kMostRounds = 30;      // of a run-up
+constexpr int kMaxRounds = 30;       // of a run-up
 constexpr double kAgreed = 1.0e-12;  // of a run-up's forces
 
 /// The coefficients of 1, tau, tau^2 of the quadratic that is 1 at node j and 0 at the others.
@@ -116,10 +116,10 @@ ForcedRotorStep::Response ForcedRotorStep::response(const LinearRotor& rotor, do
       seen.row(row + 2) = forces_[k].along_x.transpose() * reached.bottomRows(n);
       seen.row(row + 3) = forces_[k].along_y.transpose() * reached.bottomRows(n);
     }
-    const Index pushes = inputs - pushed * (ActingInputs::kDegree + 1);
+    const Index pushes = inputs - pushed * (AppliedInputs::kDegree + 1);
     for (std::size_t j = 0; j < kNodes; ++j) {
       for (Index k = 0; k < pushed; ++k) {
-        const Index power = pushes + k * (ActingInputs::kDegree + 1);
+        const Index power = pushes + k * (AppliedInputs::kDegree + 1);
         force.block(static_cast<Index>(node) * places, static_cast<Index>(j) * pushed + k, places,
                     1) = courses[j][0] * seen.col(power) + courses[j][1] * seen.col(power + 1) +
                          courses[j][2] * seen.col(power + 2);
@@ -170,7 +170,7 @@ double ForcedRotorStep::torqueAt(std::size_t node, double offset) const noexcept
   double sum = 0.0;
   if (inputs_ != nullptr && torque_ != LocalForce::kNoInput && inputs_->acts(torque_)) {
     const double time = offset + kTimes[node] * h_;
-    // A corner between is seen where the node is.
+    // A breakpoint in between takes effect at the next node.
     sum = inputAt(torque_, time, static_cast<std::int64_t>(std::floor(time * 1e9 - 1e-3)));
   }
   for (std::size_t k = 0; k < forces_.size(); ++k) {
@@ -206,7 +206,7 @@ void ForcedRotorStep::readPlaces(const LinearMotion& motion, std::size_t node) n
   }
 }
 
-/// What the forces are where the rotor is now, at all nodes.
+/// The forces at the present state of the rotor, at all nodes.
 bool ForcedRotorStep::begin(const LinearMotion& motion) noexcept {
   for (std::size_t node = 0; node < kNodes; ++node) {
     readPlaces(motion, node);
@@ -280,7 +280,7 @@ StepStatus ForcedRotorStep::changingStep(const Drive& drive, double offset,
   }
   const Response& response = responseNear(drive.at(offset).speed);
   from_ = motion;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     StepStatus status = StepStatus::kOk;
     for (std::size_t node = 0; status == StepStatus::kOk && node < kNodes; ++node) {
       status = goTo(node, drive, offset, motion);
@@ -318,7 +318,7 @@ StepStatus ForcedRotorStep::advance(double offset, SpinMotion& spin,
   }
   const Response* const response = forces_.empty() ? nullptr : &responseNear(spin.speed.high);
   from_ = motion;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     StepStatus status = StepStatus::kOk;
     for (std::size_t node = 0; status == StepStatus::kOk && node < kNodes; ++node) {
       status = goTo(node, spin_->course(), offset, motion);

@@ -1,18 +1,18 @@
-// The exact step of a linear rotor (rotor_step.h) that is pushed at places along it by forces that
-// are not linear (mechanics/local_force.h).
+// The exact step of a linear rotor (rotor_step.h) with nonlinear nodal forces
+// (mechanics/local_force.h).
 //
-// Over a step each force is the quadratic of time that has its value at the three Radau nodes, the
-// last of them the end of the step. To that the rotor answers exactly, however stiff; and as the
-// forces are those of where the rotor then is, the step is implicit in them: Radau IIA of the local
-// forces alone, an exponential collocation (Hochbruck & Ostermann, Acta Numerica 19, 2010). Its
-// error is of order h^6 a step, it stays stable however stiff the forces are, and where nothing but
-// the linear part acts there is no error.
+// Over a step each force is the quadratic in time that interpolates its values at the three Radau
+// nodes, the last of them the end of the step. The rotor's response to that is exact for any
+// stiffness; the forces depend on the resulting motion, so the step is implicit in them: Radau IIA
+// of the local forces alone, an exponential collocation (Hochbruck & Ostermann, Acta Numerica 19,
+// 2010). Its error is of order h^6 a step, it is stable for any stiffness of the forces, and
+// without nonlinear forces there is no error.
 //
-// The unknowns are three values of each force, whatever the number of coordinates: how the places
-// answer to them is a small matrix, prepared for each constant speed, and Newton's method with the
-// laws' slopes solves for them. In a run-up the prepared matrix is nearly right: there the rotor is
-// taken along again until forces and places agree; where the rotor's matrices do not follow the
-// speed it is right, and once is enough.
+// The unknowns are three values of each force, for any number of coordinates: the response of the
+// nodes to them is a small matrix, prepared for each constant speed, and Newton's method with the
+// derivatives of the forces solves for them. In a run-up the prepared matrix is approximate: there
+// the rotor step is repeated until forces and motion are consistent; where the rotor's matrices do
+// not depend on the speed it is exact, and one pass is sufficient.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@
 
 #include "control/drive.h"
 #include "control/inputs.h"
-#include "integration/acting_inputs.h"
+#include "integration/applied_inputs.h"
 #include "integration/linear_stepper.h"
 #include "integration/motion_state.h"
 #include "integration/packed_matrix.h"
@@ -38,12 +38,12 @@
 
 namespace whirl_twin {
 
-/// What acts on a rotor besides what turns with its shaft.
+/// Forces on a rotor other than synchronous ones.
 struct RotorForcing {
   const Inputs* inputs = nullptr;  ///< of the model, outlives the steps; nullptr: nothing acts
   Eigen::MatrixXd directions;      ///< a column an input
   std::vector<LocalForce> forces;
-  const SpinCoupling* spin = nullptr;  ///< of a shaft that moves by itself; needed to prepare only
+  const SpinCoupling* spin = nullptr;         ///< of a shaft with free spin; needed to prepare only
   std::size_t torque = LocalForce::kNoInput;  ///< the input on that shaft
 };
 
@@ -63,7 +63,7 @@ class ForcedRotorStep {
   /// As RotorStep. kNoGap: the step would take the rotor to where a law has no place;
   /// kNotConverged: forces and places could not be made to agree.
   StepStatus advance(const Drive& drive, double offset, LinearMotion& motion) noexcept;
-  /// The same of a rotor with a spin of its own, from offset [s] after begin() of the inputs.
+  /// The same for a rotor with a free spin, from offset [s] after begin() of the inputs.
   StepStatus advance(double offset, SpinMotion& spin, LinearMotion& motion) noexcept;
   /// As RotorStep; never with local forces.
   bool advanceInParts(const Drive& drive, std::int64_t from, std::int64_t to,
@@ -110,13 +110,13 @@ class ForcedRotorStep {
   const Inputs* inputs_;
   double h_;
   bool steady_;  ///< the matrices do not follow the speed: a response is that at any
-  ActingInputs acting_;
+  AppliedInputs acting_;
   std::size_t torque_;
   RotorStep whole_;
   std::optional<ShaftSpin> spin_;
   std::vector<RotorStep> to_nodes_;  ///< inside the step; where the speed changes
   std::vector<Response> responses_;
-  // Room for a step. Places: x, y, x', y' of each force at the first node, then at the next.
+  // Work space of a step. Places: x, y, x', y' of each force at the first node, then at the next.
   // Values: x, y of each force likewise.
   std::vector<LocalState> states_;
   LinearMotion from_;
@@ -125,7 +125,7 @@ class ForcedRotorStep {
   Eigen::VectorXd forced_;          ///< the forces sought
   Eigen::VectorXd moved_;           ///< places that go with forced_
   Eigen::VectorXd law_;             ///< the forces at moved_
-  Eigen::VectorXd sizes_;           ///< [N], of what the laws' forces are differences of
+  Eigen::VectorXd sizes_;           ///< [N], size of the terms of the forces
   Eigen::VectorXd rounding_;        ///< [N], by which their places round
   Eigen::VectorXd residual_;        ///< law_ - forced_
   Eigen::VectorXd start_, change_;  ///< of a step of Newton's method

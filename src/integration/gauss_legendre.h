@@ -7,15 +7,15 @@
 // Order 2 (the implicit midpoint rule), 4 and 6; symplectic, time-reversible, A-stable; conserves
 // quadratic invariants, has bounded energy error over any time, treats damping and gyroscopic terms
 // like any other. The stages are found by fixed-point iteration started from the previous step's
-// polynomial, two to five rounds as a rule; where that contracts too slowly (stiff systems) by
-// simplified Newton; where that does not converge either, in up to 16 parts of the step. If nothing
-// does, the state is left as it was and kNotConverged is returned. It does not damp stiff modes (it
-// is not L-stable), and it does not see discontinuities inside a step.
+// polynomial, typically two to five iterations; where that contracts too slowly (stiff systems) by
+// simplified Newton; where that does not converge either, in up to 16 sub-steps. If these fail too,
+// the state is unchanged and kNotConverged is returned. It does not damp stiff modes (it is not
+// L-stable), and it does not detect discontinuities inside a step.
 #pragma once
 
 #include <cmath>
 
-#include "integration/called_equation.h"
+#include "integration/erased_ode.h"
 #include "integration/motion_state.h"
 #include "integration/simd_vector.h"
 #include "integration/stage_solver.h"
@@ -102,7 +102,7 @@ class GaussLegendre {
  public:
   static constexpr const char* kName = gauss_legendre::Tableau<stages>::kName;
 
-  /// Forgets the previous step: needed after the state was changed from outside.
+  /// Discards the history: required after an external change of the state.
   void restart() { warm_ = false; }
 
   /// Advances by h [s] from offset [s] after the start of the twin's step.
@@ -114,13 +114,13 @@ class GaussLegendre {
       a = extrapolated();
     } else {
       // No second copy of the equations for a guess.
-      withCalls(equation, [&](const CalledEquation<n>& called) {
-        a.fill(Lanes<n>(called(state.q, state.v, offset).acceleration));
+      withCalls(equation, [&](const ErasedOde<n>& called) {
+        a.fill(SimdVector<n>(called(state.q, state.v, offset).acceleration));
       });
     }
     Powers power;
     if (!fixedPoint(equation, offset, h, state, a, power)) {
-      return withCalls(equation, [&](const CalledEquation<n>& called) {
+      return withCalls(equation, [&](const ErasedOde<n>& called) {
         return stiffStep(called, offset, h, kMaxHalvings, state);
       });
     }
@@ -132,17 +132,16 @@ class GaussLegendre {
 
  private:
   using Tableau = gauss_legendre::Tableau<stages>;
-  using Stages = std::array<Lanes<n>, stages>;
+  using Stages = std::array<SimdVector<n>, stages>;
   using Powers = std::array<double, stages>;
 
   /// A step by Newton's method; where that does not converge, two of half the length. Beside its
   /// matrices a call is nothing.
-  [[gnu::noinline, gnu::cold]] StepStatus stiffStep(const CalledEquation<n>& equation,
-                                                    double offset, double h, int halvings,
-                                                    MotionState<n>& state) {
+  [[gnu::noinline, gnu::cold]] StepStatus stiffStep(const ErasedOde<n>& equation, double offset,
+                                                    double h, int halvings, MotionState<n>& state) {
     const std::array<double, n> start = equation(state.q, state.v, offset).acceleration;
     Stages a;
-    a.fill(Lanes<n>(start));
+    a.fill(SimdVector<n>(start));
     Powers power;
     if (newton(equation, offset, h, state, a, power) && plausible(h, state, start, a)) {
       last_ = a;
@@ -184,16 +183,16 @@ class GaussLegendre {
   /// From the stages to the end of the step.
   static WHIRL_TWIN_INLINE void finish(double h, const Stages& a, const Powers& power,
                                        MotionState<n>& state) {
-    Lanes<n> rate{};
-    Lanes<n> position{};
+    SimdVector<n> rate{};
+    SimdVector<n> position{};
     for (std::size_t k = 0; k < stages; ++k) {
       rate.add(Tableau::kWeights[k], a[k]);
       position.add(Tableau::kWeights[k] * (1.0 - Tableau::kNodes[k]), a[k]);
     }
-    Lanes<n> mean(state.v);
+    SimdVector<n> mean(state.v);
     mean.add(h, position);
-    Lanes<n> dq{};
-    Lanes<n> dv{};
+    SimdVector<n> dq{};
+    SimdVector<n> dv{};
     dq.add(h, mean);
     dv.add(h, rate);
     double mean_power = 0.0;
@@ -208,12 +207,12 @@ class GaussLegendre {
   static constexpr int kMaxNewton = 24;
   static constexpr int kMaxJacobians = 3;
   static constexpr int kMaxHalvings = 4;
-  /// Iteration ends when the acceleration changes by less than this part of its size: what is left
-  /// then enters q and v multiplied by h and is below their rounding.
+  /// Iteration ends when the acceleration changes by less than this fraction of its size: the
+  /// remaining error enters q and v multiplied by h and is below their rounding.
   static constexpr double kTolerance = 4.0e-16;
   /// [rad/s^2] or [m/s^2]: where the product above would underflow.
   static constexpr double kNothing = 1.0e-290;
-  /// A fixed point that contracts slower than this is left to Newton.
+  /// If the fixed-point iteration contracts slower than this, Newton is used.
   static constexpr double kSlow = 0.5;
   /// Newton that no longer contracts has reached the rounding of the accelerations themselves,
   /// which is that of a number times the condition of the mass matrix (up to 1e6 or so); where it
@@ -238,17 +237,17 @@ class GaussLegendre {
   static WHIRL_TWIN_INLINE void stage(std::size_t k, double h, const MotionState<n>& state,
                                       const Stages& a, std::array<double, n>& q,
                                       std::array<double, n>& v) {
-    Lanes<n> rate{};
-    Lanes<n> position{};
+    SimdVector<n> rate{};
+    SimdVector<n> position{};
     for (std::size_t j = 0; j < stages; ++j) {
       rate.add(Tableau::kA[k][j], a[j]);
       position.add(gauss_legendre::kAA<stages>[k][j], a[j]);
     }
-    const Lanes<n> v0(state.v);
-    Lanes<n> mean{};
+    const SimdVector<n> v0(state.v);
+    SimdVector<n> mean{};
     mean.add(Tableau::kNodes[k], v0);
     mean.add(h, position);
-    Lanes<n> at_stage(state.q);
+    SimdVector<n> at_stage(state.q);
     at_stage.add(h, mean);
     q = at_stage.array();
     at_stage = v0;
@@ -267,7 +266,7 @@ class GaussLegendre {
       std::array<double, n> v;
       stage(k, h, state, a, q, v);
       const auto d = equation(q, v, offset + Tableau::kNodes[k] * h);
-      result[k] = Lanes<n>(d.acceleration);
+      result[k] = SimdVector<n>(d.acceleration);
       power[k] = d.power;
     }
   }
@@ -303,7 +302,7 @@ class GaussLegendre {
       if (change <= kTolerance * size) {
         return true;
       }
-      // Rounding sets the floor: no longer shrinking, but small, is as converged as it gets.
+      // Rounding limit: a small change that no longer decreases counts as converged.
       if (iteration > 0 && change > kSlow * previous) {
         return change <= 64.0 * kTolerance * size;
       }
@@ -312,8 +311,8 @@ class GaussLegendre {
     return false;
   }
 
-  bool newton(const CalledEquation<n>& equation, double offset, double h,
-              const MotionState<n>& state, Stages& a, Powers& power) const {
+  bool newton(const ErasedOde<n>& equation, double offset, double h, const MotionState<n>& state,
+              Stages& a, Powers& power) const {
     // A Jacobian of the step's start serves most steps. Where the motion turns so fast that it does
     // not, one of the middle of the step as found so far does.
     std::array<double, n> q = state.q;
@@ -330,9 +329,8 @@ class GaussLegendre {
   }
 
   /// Simplified Newton with one Jacobian, until it converges or no longer contracts.
-  bool iterate(const CalledEquation<n>& equation, double offset, double h,
-               const MotionState<n>& state, const AccelerationJacobian<n>& jacobian, Stages& a,
-               Powers& power) const {
+  bool iterate(const ErasedOde<n>& equation, double offset, double h, const MotionState<n>& state,
+               const AccelerationJacobian<n>& jacobian, Stages& a, Powers& power) const {
     const StageSolver<stages, n> solver(h, Tableau::kA, gauss_legendre::kAA<stages>, jacobian);
     double previous = 0.0;
     for (int iteration = 0; iteration < kMaxNewton; ++iteration) {
@@ -347,7 +345,7 @@ class GaussLegendre {
       double change = 0.0;
       bool small = true;
       for (std::size_t k = 0; k < stages; ++k) {
-        a[k] = a[k] + Lanes<n>(correction[k]);
+        a[k] = a[k] + SimdVector<n>(correction[k]);
         const std::array<double, n> sizes = a[k].array();
         const std::array<double, n> next_sizes = next[k].array();
         for (std::size_t i = 0; i < n; ++i) {

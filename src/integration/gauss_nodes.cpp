@@ -8,7 +8,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr long double kLongPi = 3.14159265358979323846264338327950288L;
-/// The kernel is smooth and the polynomial of degree count - 1: so many more points than nodes.
+/// Number of points in excess of the nodes: the kernel is smooth and the polynomial of degree count
+/// - 1.
 constexpr std::size_t kFurtherPoints = 4;
 
 /// P_n and its derivative at x.

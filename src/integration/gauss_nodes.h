@@ -1,4 +1,4 @@
-// Gauss-Legendre nodes on 0..1, with what it takes to integrate from 0 to each of them as well.
+// Gauss-Legendre nodes on 0..1, with quadratures from 0 to each of them.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ struct GaussNodes {
 };
 
 /// Quadratures from 0 to each of some nodes, of a kernel times the polynomial through values at
-/// them: the kernel is taken at `points` of the way, and the value at node k counts
-/// share(j, q, k) at the point q of the way to node j.
+/// them: the kernel is evaluated at the fractions `points` of each interval, and share(j, q, k) is
+/// the weight of the value at node k for the point q of the interval to node j.
 struct GaussStretches {
   explicit GaussStretches(std::size_t count);
 

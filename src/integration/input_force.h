@@ -1,8 +1,9 @@
-// The inputs of a system as a generalized force during a step, piece by piece (control/inputs.h):
-// Q = sum of u_i B_i.
+// Generalized force of the inputs of a system during a step, piecewise (control/inputs.h): Q = sum
+// of u_i B_i.
 //
-// Of a piece the force is parted in two. What is held, the inputs that are constant in it, does the
-// work Q . dq, whatever the method; what varies works by the method's own nodes.
+// In a piece the force has two parts. The zero-order-hold part, of inputs that are constant in it,
+// does the work Q . dq for any method; the work of the varying part is computed at the method's
+// nodes.
 #pragma once
 
 #include <cstddef>
@@ -25,14 +26,15 @@ class InputForce {
   // Real-time safe. Forces are of as many numbers as the model has coordinates.
 
   bool acts() const noexcept { return inputs_ != nullptr; }
-  /// The first corner later than an offset [s] after the start of the twin's step, or the largest
-  /// number there is.
+  /// The first breakpoint later than an offset [s] after the start of the twin's step, or the
+  /// largest number there is.
   double nextCorner(double offset) const noexcept;
   /// Takes up the piece around an offset [s].
   void enter(double offset) noexcept;
-  /// In that piece, at an offset [s]: Q, and what of it is not held. Beyond its ends it goes on.
+  /// In that piece, at an offset [s]: Q, and its part that is not zero-order hold. Extrapolated
+  /// beyond the ends of the piece.
   void at(double offset, double* all, double* varying) const noexcept;
-  /// What of it is held.
+  /// Its zero-order hold part.
   const double* held() const noexcept { return held_.data(); }
   /// At the start of the twin's step.
   void now(double* all) const noexcept;

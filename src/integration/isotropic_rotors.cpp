@@ -12,8 +12,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kLongestPart = 2.0;  // rad, of shaft and whirl together
-constexpr int kMostPartsOfStep = 1000000;
+constexpr double kMaxPart = 2.0;  // rad, of shaft and whirl together
+constexpr int kMaxPartsOfStep = 1000000;
 constexpr std::size_t kAtATime = 64;  // parts: as many as are kept beside eight rotors
 
 /// Gauss-Legendre on 0..1, order 12.
@@ -51,8 +51,8 @@ double fastest(const std::vector<IsotropicRotor>& rotors) {
 }
 
 int partsFor(const std::vector<IsotropicRotor>& rotors, double h, double highest_speed) {
-  const double parts = std::ceil(h * (fastest(rotors) + std::fabs(highest_speed)) / kLongestPart);
-  return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(kMostPartsOfStep)));
+  const double parts = std::ceil(h * (fastest(rotors) + std::fabs(highest_speed)) / kMaxPart);
+  return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(kMaxPartsOfStep)));
 }
 
 std::complex<double> markOf(const IsotropicRotor& rotor) {
@@ -72,7 +72,7 @@ IsotropicRotors::IsotropicRotors(const std::vector<IsotropicRotor>& rotors, doub
     : count_(rotors.size()),
       parts_(finer * partsFor(rotors, h, highest_speed)),
       part_(h / parts_),
-      limit_speed_(2.0 * kLongestPart / part_ - fastest(rotors)),
+      limit_speed_(2.0 * kMaxPart / part_ - fastest(rotors)),
       bowed_(anyBowed(rotors)),
       later_(kAtATime),
       rotors_(rotors),
@@ -198,7 +198,7 @@ WHIRL_TWIN_INLINE void IsotropicRotors::advanceSome(Block& block, std::size_t la
                                                     const Forces* forces,
                                                     std::size_t parts) noexcept {
   using Some = typename Vector<lanes>::Type;
-  const auto at = [lane](Lanes& numbers) WHIRL_TWIN_FLAT -> Some& {
+  const auto at = [lane](SimdVector& numbers) WHIRL_TWIN_FLAT -> Some& {
     return *reinterpret_cast<Some*>(reinterpret_cast<double*>(&numbers) + lane);
   };
   // In registers, where there are enough.

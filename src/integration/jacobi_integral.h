@@ -12,12 +12,12 @@ namespace whirl_twin {
 
 /// The Jacobi integral h [J] of a model at a state of dof() numbers each. Real-time safe.
 using JacobiIntegral =
-    std::function<double(const double* q, const double* v, const Moment<double>& at)>;
+    std::function<double(const double* q, const double* v, const EvaluationPoint<double>& at)>;
 
 /// h = v . dL/dv - L of a model.
 template <class Model>
 JacobiIntegral jacobiIntegral(const Model& model) {
-  return [model](const double* q, const double* v, const Moment<double>& at) {
+  return [model](const double* q, const double* v, const EvaluationPoint<double>& at) {
     std::array<double, Model::kDof> position;
     std::array<double, Model::kDof> rate;
     std::copy_n(q, Model::kDof, position.begin());

@@ -101,7 +101,7 @@ void LateralExactStep::prepare(double speed) noexcept {
 }
 
 StepStatus LateralExactStep::advance(const Drive& drive, LateralMotion& motion) noexcept {
-  constexpr int kTurns = 32;  // until the phasor is made anew
+  constexpr int kTurns = 32;  // until the phasor is recomputed
   const ShaftMotion shaft = drive.at(0.0);
   if (!(shaft.speed == speed_)) {
     prepare(shaft.speed);

@@ -6,14 +6,14 @@
 //
 //   dy = P y + f + s,   work = y . (W y + p + r) + h,
 //
-// the work a quadratic form, the integral of e^(A't) S e^(At). f and p turn with the shaft, f = f_c
-// cos + f_s sin, and so does h with parts of twice the angle: what depends on the motion of the
-// last step is four columns of four numbers each.
+// the work a quadratic form, the integral of e^(A't) S e^(At). f and p are synchronous, f = f_c cos
+// + f_s sin, and h has 1X and 2X components: only four columns of four numbers each depend on the
+// motion of the last step.
 //
-// cos and sin are turned from step to step, by a turn known to twice the digits of a double: far
-// above the critical speed forces (w/p)^2 times as large as what remains of them add up, and what
-// is wrong with every turn alike would add up with them. Some 1e-16 of rounding is left, each step
-// another; once in a while they are made anew of the shaft's angle.
+// cos and sin are rotated from step to step, by a rotation known to twice the digits of a double:
+// far above the critical speed forces (w/p)^2 times as large as their sum accumulate, and a
+// systematic error of the rotation would accumulate with them. A random rounding error of some
+// 1e-16 per step remains; the phasor is periodically recomputed from the shaft's angle.
 #pragma once
 
 #include <array>
@@ -34,10 +34,11 @@ class LateralExactStep {
 
   // Real-time safe.
 
-  /// The motion is set anew.
+  /// Discards the history, after the motion has been set.
   void restart() noexcept { turns_left_ = 0; }
 
-  /// Where the last step ended at the drive's begin() and the next may go on: the speed [rad/s].
+  /// The speed [rad/s] if the last step ended at the drive's begin() and the next may continue from
+  /// it.
   std::optional<double> speedAt(const Drive& drive) const noexcept {
     if (turns_left_ <= 0 || drive.nanoseconds() != next_ || drive.piece() != piece_) {
       return std::nullopt;
@@ -68,7 +69,7 @@ class LateralExactStep {
   struct Numbers {
     alignas(32) std::array<double, 4> all{};
   };
-  /// What turns with the shaft, at angle 0 and a quarter of a turn on, and what does not.
+  /// Synchronous parts, at angle 0 and a quarter of a turn ahead, and the constant part.
   struct Turning {
     Numbers ahead, aside, rest;
   };
@@ -99,7 +100,7 @@ class LateralExactStep {
     const auto turned = [&](const Turning& it) __attribute__((always_inline)) {
       return (numbers(it.ahead) * cosine + numbers(it.aside) * sine) + numbers(it.rest);
     };
-    // What hangs on the last step comes last, and what its sums left out last of all.
+    // Terms that depend on the last step come last, and its compensations at the very end.
     Four move = turned(force_);
     Four by_y = turned(force_power_);
     if (coupled_) {
@@ -119,7 +120,7 @@ class LateralExactStep {
       at_rest += (at_rest_[0] * c1 + at_rest_[1] * s1) +
                  (at_rest_[2] * (c1 * c1 - s1 * s1) + at_rest_[3] * (2.0 * c1 * s1));
     }
-    // The phasor goes on to the end of the step.
+    // Advances the phasor to the end of the step.
     (cosine * numbers(turn_.cosine) -
      (sine * numbers(turn_.sine) -
       (cosine * numbers(turn_low_.cosine) - sine * numbers(turn_low_.sine))))
@@ -146,11 +147,11 @@ class LateralExactStep {
   Phasor phasor_;
   std::int64_t next_ = 0;    ///< [ns]
   std::uint64_t piece_ = 0;  ///< of the drive
-  int turns_left_ = 0;       ///< until it is made anew
+  int turns_left_ = 0;       ///< until it is recomputed
   bool turns_at_rest_ = false;
   bool coupled_ = false;
   std::int64_t nanoseconds_;  ///< h, if it is whole
-  Phasor turn_, turn_low_;    ///< of a step, and what its doubles leave out
+  Phasor turn_, turn_low_;    ///< of a step, and its rounding error in double
 
   Columns moves_, powers_;
   Turning force_, force_power_;

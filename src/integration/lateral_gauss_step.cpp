@@ -67,7 +67,7 @@ WHIRL_TWIN_INLINE void begin(NodePhasors& p, int i, const Doubles& turn, const D
 
 /// Turns them on by a step.
 template <int lanes, class Doubles = typename StageVector<lanes>::Doubles>
-WHIRL_TWIN_INLINE void goOn(NodePhasors& p, int i, Doubles& sine, Doubles& cosine) {
+WHIRL_TWIN_INLINE void resume(NodePhasors& p, int i, Doubles& sine, Doubles& cosine) {
   Doubles& s = reinterpret_cast<Doubles*>(p.sine.data())[i];
   Doubles& c = reinterpret_cast<Doubles*>(p.cosine.data())[i];
   Doubles& turn_s = reinterpret_cast<Doubles*>(p.turn_sine.data())[i];
@@ -134,7 +134,7 @@ WHIRL_TWIN_INLINE void take(const LateralGaussStep& step, LateralGaussResult& re
     const Doubles square = speed * speed;
     Doubles sine, cosine;
     if (step.use == PhasorUse::kGoOn) {
-      goOn<lanes>(step.phasors, i, sine, cosine);
+      resume<lanes>(step.phasors, i, sine, cosine);
     } else {
       const Doubles turned =
           t * (shaft.speed + t * (0.5 * shaft.acceleration + t * (shaft.jerk * (1.0 / 6.0))));
@@ -195,7 +195,8 @@ WHIRL_TWIN_INLINE void interleave(const Doubles& x, const Doubles& y, Doubles* b
 }
 
 template <int lanes, int count>
-WHIRL_TWIN_INLINE StepStatus goOnWith(const LateralGaussGoOn& step, LateralMotion& motion) {
+WHIRL_TWIN_INLINE StepStatus continueWith(const LateralGaussContinuation& step,
+                                          LateralMotion& motion) {
   using Doubles = typename StageVector<lanes>::Doubles;
   constexpr int kVectors = count / lanes;
   constexpr int kRows = (count + 4) / lanes;
@@ -226,7 +227,7 @@ WHIRL_TWIN_INLINE StepStatus goOnWith(const LateralGaussGoOn& step, LateralMotio
     const Doubles speed = step.speed + (step.length * a) * nodes[i];
     const Doubles square = speed * speed;
     Doubles sine, cosine;
-    goOn<lanes>(step.phasors, i, sine, cosine);
+    resume<lanes>(step.phasors, i, sine, cosine);
     x_turning[i] =
         cosine * (square * e[0].real() + x_cosine) - sine * (square * e[0].imag() + x_sine);
     y_turning[i] =
@@ -280,8 +281,8 @@ WHIRL_TWIN_INLINE StepStatus goOnWith(const LateralGaussGoOn& step, LateralMotio
 }
 
 template <int count>
-StepStatus goOnByTwos(const LateralGaussGoOn& step, LateralMotion& motion) noexcept {
-  return goOnWith<2, count>(step, motion);
+StepStatus continueByTwos(const LateralGaussContinuation& step, LateralMotion& motion) noexcept {
+  return continueWith<2, count>(step, motion);
 }
 
 template <int count>
@@ -297,9 +298,9 @@ template <int count>
 }
 
 template <int count>
-[[gnu::target("avx2,fma")]] StepStatus goOnByFours(const LateralGaussGoOn& step,
-                                                   LateralMotion& motion) noexcept {
-  return goOnWith<4, count>(step, motion);
+[[gnu::target("avx2,fma")]] StepStatus continueByFours(const LateralGaussContinuation& step,
+                                                       LateralMotion& motion) noexcept {
+  return continueWith<4, count>(step, motion);
 }
 
 bool fourWide() noexcept {
@@ -318,13 +319,13 @@ TakeLateralGaussStep lateralGaussStep(std::size_t nodes) noexcept {
   return nodes == 4 ? takeByTwos<4> : nodes == 8 ? takeByTwos<8> : takeByTwos<12>;
 }
 
-GoOnLateralGauss lateralGaussGoOn(std::size_t nodes) noexcept {
+GoOnLateralGauss lateralGaussContinuation(std::size_t nodes) noexcept {
 #ifdef WHIRL_TWIN_FOUR_WIDE
   if (fourWide()) {
-    return nodes == 4 ? goOnByFours<4> : nodes == 8 ? goOnByFours<8> : goOnByFours<12>;
+    return nodes == 4 ? continueByFours<4> : nodes == 8 ? continueByFours<8> : continueByFours<12>;
   }
 #endif
-  return nodes == 4 ? goOnByTwos<4> : nodes == 8 ? goOnByTwos<8> : goOnByTwos<12>;
+  return nodes == 4 ? continueByTwos<4> : nodes == 8 ? continueByTwos<8> : continueByTwos<12>;
 }
 
 }  // namespace whirl_twin

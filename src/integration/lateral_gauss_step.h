@@ -1,14 +1,14 @@
-// One step of a rotor of two coordinates by Gauss-Legendre nodes, which lie side by side in
-// vectors: one polynomial for all sines and cosines, and for all else a product of a small matrix
-// with a vector (lateral_run_up.h).
+// One step of a rotor of two coordinates by Gauss-Legendre nodes, which are evaluated together in
+// SIMD vectors: one polynomial for all sines and cosines, and products of a small matrix with a
+// vector for the other operations (lateral_run_up.h).
 //
-// While the acceleration a is constant, steps of one length h go on with e^(i theta) at the nodes
-// where the last one had it, E, by two complex products (a chirp):
+// While the acceleration a is constant, steps of one length h continue from e^(i theta) at the
+// nodes of the last step, E, by two complex products (a chirp):
 //
 //   E <- E D,  D <- D e^(i a h^2),  D = e^(i (w h + a h^2 / 2)), w the speed at the node.
 //
-// Of so many such steps m the products leave some m^1.5 of rounding, and what the double of
-// e^(i a h^2) leaves out m^2 / 2 of it: NodePhasors::kSteps of them less than 1e-14.
+// After m such steps the rounding of the products is some m^1.5 units, and that of e^(i a h^2)
+// contributes m^2 / 2: less than 1e-14 for NodePhasors::kSteps steps.
 #pragma once
 
 #include <array>
@@ -19,29 +19,29 @@
 
 namespace whirl_twin {
 
-constexpr std::size_t kMostGaussNodes = 12;
+constexpr std::size_t kMaxGaussNodes = 12;
 
 /// Of one axis, for one length of step and 4, 8 or 12 nodes. Columns: a unit force at each node,
 /// then a deflection and a rate at the start.
 struct LateralGaussWeights {
-  static constexpr std::size_t kColumns = kMostGaussNodes + 2;
+  static constexpr std::size_t kColumns = kMaxGaussNodes + 2;
 
   /// Columns of the rates at the nodes, then (increment of the deflection, of the rate, 0, 0).
-  alignas(32) std::array<double, kColumns*(kMostGaussNodes + 4)> rates;
+  alignas(32) std::array<double, kColumns*(kMaxGaussNodes + 4)> rates;
   /// Columns of the deflections at the nodes.
-  alignas(32) std::array<double, kColumns * kMostGaussNodes> deflections;
+  alignas(32) std::array<double, kColumns * kMaxGaussNodes> deflections;
 };
 
 /// e^(i theta) at the nodes of a step, and what turns it on to the next one.
 struct NodePhasors {
   static constexpr int kSteps = 16;
 
-  alignas(32) std::array<double, kMostGaussNodes> cosine, sine;
-  alignas(32) std::array<double, kMostGaussNodes> turn_cosine, turn_sine;
+  alignas(32) std::array<double, kMaxGaussNodes> cosine, sine;
+  alignas(32) std::array<double, kMaxGaussNodes> turn_cosine, turn_sine;
   double growth_cosine, growth_sine;  ///< of a turn, from step to step
 };
 
-/// What a step does with them: nothing, makes them, or goes on with those of the step before.
+/// Use of the phasors in a step: none, compute them, or continue from those of the step before.
 enum class PhasorUse { kNone, kBegin, kGoOn };
 
 struct LateralGaussStep {
@@ -57,7 +57,7 @@ struct LateralGaussStep {
   NodePhasors& phasors;
 };
 
-/// What it makes of the motion.
+/// The resulting motion.
 struct LateralGaussResult {
   std::array<double, 4> increment;
   double work;  ///< [J]
@@ -67,9 +67,9 @@ using TakeLateralGaussStep = void (*)(const LateralGaussStep&, LateralGaussResul
 /// By so many nodes, for the processor this runs on.
 TakeLateralGaussStep lateralGaussStep(std::size_t nodes) noexcept;
 
-/// A step that goes on with the phasors of the last, both axes by the same weights and nothing
-/// between them: what most steps of a run-up are.
-struct LateralGaussGoOn {
+/// A step that continues with the phasors of the last, both axes with equal weights and uncoupled:
+/// the most frequent step of a run-up.
+struct LateralGaussContinuation {
   const LateralRotor& rotor;
   const double* nodes;    ///< as above
   const double* weights;  ///< likewise
@@ -81,7 +81,7 @@ struct LateralGaussGoOn {
 };
 
 /// Advances the motion; one that would not be finite stays as it was.
-using GoOnLateralGauss = StepStatus (*)(const LateralGaussGoOn&, LateralMotion&) noexcept;
-GoOnLateralGauss lateralGaussGoOn(std::size_t nodes) noexcept;
+using GoOnLateralGauss = StepStatus (*)(const LateralGaussContinuation&, LateralMotion&) noexcept;
+GoOnLateralGauss lateralGaussContinuation(std::size_t nodes) noexcept;
 
 }  // namespace whirl_twin

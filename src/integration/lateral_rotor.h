@@ -23,7 +23,7 @@ namespace whirl_twin {
 
 struct LateralMotion {
   alignas(32) std::array<double, 4> y{};    ///< x, y [m], x', y' [m/s]
-  alignas(32) std::array<double, 4> low{};  ///< what their doubles leave out
+  alignas(32) std::array<double, 4> low{};  ///< their rounding errors in double
   CompensatedSum work;                      ///< [J], integral of dh/dt
 
   void advance(const std::array<double, 4>& increment, double energy) noexcept {

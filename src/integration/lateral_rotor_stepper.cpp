@@ -10,9 +10,9 @@ namespace whirl_twin {
 
 namespace {
 
-/// One step in so many is taken twice, the second time in halves.
+/// One step in this number is repeated as two half steps.
 constexpr int kEstimateEvery = 64;
-/// [rad]: stiffer rotors go by the table over speed.
+/// [rad]: stiffer rotors use the table over speed.
 constexpr double kLongest = 640.0;
 
 class ByTwos final : public LateralRotorStepper {
@@ -65,7 +65,7 @@ LateralRotorStepper::LateralRotorStepper(const LateralRotor& rotor, const Drive&
       energy_turns_(energyTurns(rotor)),
       substeps_(substeps) {}
 
-/// Apart from the plain step, which is the faster the less stands beside it.
+/// Separate from the plain step, to keep that function small and fast.
 StepStatus LateralRotorStepper::otherStep() noexcept {
   StepStatus status;
   if (steps_since_estimate_ + 1 < kEstimateEvery && run_up_.goesOn(drive_, motion_, status)) {
@@ -83,7 +83,7 @@ StepStatus LateralRotorStepper::stopped(StepStatus why) noexcept {
   return why;
 }
 
-/// In parts where the drive has a corner inside.
+/// In sub-steps if the drive has a breakpoint inside.
 StepStatus LateralRotorStepper::advance(double offset, double h, LateralMotion& motion) noexcept {
   const double sliver = kSliver * h;
   const double end = offset + h;
@@ -97,7 +97,7 @@ StepStatus LateralRotorStepper::advance(double offset, double h, LateralMotion& 
     if (corner - offset > sliver) {
       status = run_up_.advance(drive_, offset, corner - offset, motion);
     }
-    // Just behind the corner, where the jerk (or acceleration) that follows holds.
+    // Just after the breakpoint, where the jerk (or acceleration) that follows holds.
     offset = std::nextafter(corner, 2.0 * end);
   }
   return status;

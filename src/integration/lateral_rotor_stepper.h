@@ -7,26 +7,26 @@
 #include <memory>
 #include <optional>
 
-#include "integration/excitation.h"
 #include "integration/lateral_exact_step.h"
 #include "integration/lateral_rotor.h"
 #include "integration/lateral_run_up.h"
+#include "integration/step_context.h"
 #include "integration/stepper.h"
 
 namespace whirl_twin {
 
 class LateralRotorStepper : public Stepper {
  public:
-  /// A stepper of this kind for step [s] of the twin in `substeps` parts, or nullptr: the rotor is
-  /// of another kind, or so stiff that a run-up would take very many parts of a step. The step
-  /// audits h = T + V of the matrices; what the Jacobi integral has besides, of the unbalance that
-  /// moves and the bow that turns, is added to the work when it is asked for.
+  /// A stepper of this kind for step [s] of the twin in `substeps` sub-steps, or nullptr: the rotor
+  /// is of a different kind, or so stiff that a run-up would need very many sub-steps. The step
+  /// audits h = T + V of the matrices; the further terms of the Jacobi integral, of the moving
+  /// unbalance and the rotating bow, are added to the work when it is requested.
   static std::unique_ptr<Stepper> of(const LinearRotor& rotor, const Drive& drive, double step,
                                      int substeps);
 
   LateralRotorStepper(const LateralRotor& rotor, const Drive& drive, double step, int substeps);
 
-  /// Where steps are taken in parts it is no stepper of this kind that takes them.
+  /// Unsupported: systems whose steps are divided use a different stepper.
   StepStatus stepPart(double, std::int64_t, std::int64_t) noexcept override {
     return stopped(StepStatus::kOutOfRange);
   }
@@ -55,7 +55,8 @@ class LateralRotorStepper : public Stepper {
 
  private:
   StepStatus otherStep() noexcept;
-  /// The shaft goes on without the rotor: what energy it has besides is that of now.
+  /// Stops the rotor while the shaft continues: the further terms of its energy are frozen at their
+  /// present values.
   StepStatus stopped(StepStatus why) noexcept;
   StepStatus changingStep() noexcept;
   StepStatus advance(double offset, double h, LateralMotion& motion) noexcept;

@@ -11,9 +11,9 @@ namespace {
 
 /// How far sweeps are to come down, and from where twelve of them do.
 constexpr double kSwept = 1.0e-15;
-constexpr double kMostCoupling = 0.5;
-constexpr int kMostSweeps = 12;
-constexpr int kMostPartsOfRunUp = 1 << 16;
+constexpr double kMaxCoupling = 0.5;
+constexpr int kMaxSweeps = 12;
+constexpr int kMaxPartsOfRunUp = 1 << 16;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ LateralRunUp::Set::Set(std::size_t count, double farthest)
     : stretches(count),
       reach(farthest),
       take(lateralGaussStep(count)),
-      go_on(lateralGaussGoOn(count)) {
+      go_on(lateralGaussContinuation(count)) {
   for (std::size_t j = 0; j < count; ++j) {
     nodes[j] = stretches.nodes.nodes[j];
     weights[j] = stretches.nodes.weights[j];
@@ -123,10 +123,10 @@ const LateralRunUp::Weights& LateralRunUp::weightsFor(std::size_t set, double le
       return *other;
     }
   }
-  Weights& anew = *other_[oldest_];
+  Weights& restarted = *other_[oldest_];
   oldest_ = (oldest_ + 1) % other_.size();
-  prepare(anew, set, length);
-  return anew;
+  prepare(restarted, set, length);
+  return restarted;
 }
 
 /// How far the coupling bends what it acts on within a length, in parts of the deflection.
@@ -169,9 +169,9 @@ StepStatus LateralRunUp::advance(const Drive& drive, double offset, double lengt
   const double reach = (fastest_ + fastest_turn) * length;
   int parts = 1;
   double coupled = couplingWithin(fastest_turn, length);
-  while (!(reach <= parts * sets_->back().reach && coupled <= kMostCoupling)) {
+  while (!(reach <= parts * sets_->back().reach && coupled <= kMaxCoupling)) {
     parts *= 2;
-    if (parts > kMostPartsOfRunUp) {
+    if (parts > kMaxPartsOfRunUp) {
       return StepStatus::kOutOfRange;
     }
     coupled = couplingWithin(fastest_turn, length / parts);
@@ -181,7 +181,7 @@ StepStatus LateralRunUp::advance(const Drive& drive, double offset, double lengt
     ++set;
   }
   int sweeps = 0;
-  for (double left = coupled; left > kSwept && sweeps < kMostSweeps; left *= coupled / sweeps) {
+  for (double left = coupled; left > kSwept && sweeps < kMaxSweeps; left *= coupled / sweeps) {
     ++sweeps;
   }
   const Set& nodes = (*sets_)[set];

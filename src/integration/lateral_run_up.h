@@ -1,21 +1,22 @@
 // Steps of a rotor of two coordinates while the speed of its shaft changes.
 //
-// The free motion of each axis goes by its propagator, exact for any step; the forces by
-// Gauss-Legendre quadrature with the shaft's own angle at the nodes (variation of constants),
+// The free motion of each axis is advanced by its propagator, exact for any step; the forces are
+// integrated by Gauss-Legendre quadrature with the exact shaft angle at the nodes (variation of
+// constants),
 //
 //   y(h) = e^(A h) y(0) + sum of w_j h e^(A (h - x_j h)) f(x_j h).
 //
-// Four nodes, eight or twelve: as many as the step needs to leave 1e-12 or less of the forces
-// where the shaft turns, and the free motion whirls or decays, by (w + p) h together. A step that
-// is longer than twelve nodes can take is parted.
+// Four nodes, eight or twelve: as many as the step needs for a relative error of the forces of
+// 1e-12 or less where the shaft turns, and the free motion whirls or decays, by (w + p) h together.
+// A step too long for twelve nodes is divided.
 //
 // The rates at the nodes follow from the polynomial through the forces there (collocation), and
-// with them the audited work by the same nodes and weights, to the same order. What couples the
-// axes, n(w) (-y, x), is a force like the others, at deflections found by sweeps: each of them
-// leaves a small part of the last, n h^2 / 2 / (number of the sweep) or less.
+// with them the audited work by the same nodes and weights, to the same order. The coupling of the
+// axes, n(w) (-y, x), is a force like the others, at deflections found iteratively: each sweep
+// reduces the error by a factor of n h^2 / 2 / (number of the sweep) or less.
 //
-// lateral_gauss_step.h takes the step. Where steps of h follow one another at one acceleration it
-// turns the phasors of the nodes on from step to step.
+// lateral_gauss_step.h implements the step. In consecutive steps of h at constant acceleration it
+// updates the phasors of the nodes recursively.
 #pragma once
 
 #include <array>
@@ -33,7 +34,7 @@
 
 namespace whirl_twin {
 
-// The free motion of x'' + c x' + k x = 0 in closed form, whatever its damping.
+// The free motion of x'' + c x' + k x = 0 in closed form, for any damping.
 
 /// x(t) = x + by_place x + place_by_rate x', x'(t) = x' + rate_by_place x + by_rate x'.
 struct FreeOscillation {
@@ -70,7 +71,7 @@ class LateralRunUp {
 
   // Real-time safe.
 
-  /// The motion is set anew.
+  /// Discards the history, after the motion has been set.
   void restart() noexcept { turns_left_ = 0; }
 
   /// Weights are the same whenever they are prepared.
@@ -79,8 +80,8 @@ class LateralRunUp {
     image.requireWithin(of_set_, std::size_t{0}, kSets - 1);
   }
 
-  /// Where the last step of h ended at the drive's begin(), and its phasors go on: the speed there
-  /// [rad/s], without waiting for the drive's angle.
+  /// The speed [rad/s] if the last step of h ended at the drive's begin() and its phasors can be
+  /// continued; does not compute the drive's angle.
   std::optional<double> speedAt(const Drive& drive) const noexcept {
     if (turns_left_ == 0 || !follows(drive)) {
       return std::nullopt;
@@ -106,9 +107,9 @@ class LateralRunUp {
     return true;
   }
 
-  /// Advances by a length [s] from offset [s] after the drive's begin(), with no corner of its
-  /// motion inside. A length other than h is prepared for first. kOutOfRange where the shaft turns
-  /// too far for any number of parts that a step may take.
+  /// Advances by a length [s] from offset [s] after the drive's begin(), with no breakpoint of its
+  /// motion inside. A length other than h is first prepared. kOutOfRange where the shaft turns too
+  /// far for the maximum number of sub-steps.
   StepStatus advance(const Drive& drive, double offset, double length,
                      LateralMotion& motion) noexcept;
 
@@ -128,8 +129,8 @@ class LateralRunUp {
     double reach;  ///< (w + p) h up to which it leaves 1e-12 or less
     TakeLateralGaussStep take;
     GoOnLateralGauss go_on;
-    alignas(32) std::array<double, kMostGaussNodes> nodes{};
-    alignas(32) std::array<double, kMostGaussNodes> weights{};
+    alignas(32) std::array<double, kMaxGaussNodes> nodes{};
+    alignas(32) std::array<double, kMaxGaussNodes> weights{};
   };
   static const std::array<Set, kSets>& sets();
 
@@ -157,7 +158,7 @@ class LateralRunUp {
   std::array<double, kSets> fastest_turn_;  ///< [rad/s], up to which each set does for h
   double flexibility_;                      ///< [s], largest deflection after a unit impulse
   std::array<std::unique_ptr<Weights>, kSets> whole_;
-  /// Lengths met on the way: of halves of a step with each set of nodes, of parts at a corner.
+  /// Cached lengths: of half steps with each set of nodes, of sub-steps at a breakpoint.
   std::array<std::unique_ptr<Weights>, 5> other_;
   std::size_t oldest_ = 0;                             ///< of those
   NodePhasors phasors_;                                ///< of steps of h
@@ -166,7 +167,7 @@ class LateralRunUp {
   std::int64_t next_ = 0;                              ///< [ns], where the last step of h ended
   std::uint64_t piece_ = 0;                            ///< of the drive
   std::size_t of_set_ = 0;                             ///< nodes that the phasors are for
-  int turns_left_ = 0;                                 ///< until they are made anew
+  int turns_left_ = 0;                                 ///< until they are recomputed
 };
 
 }  // namespace whirl_twin

@@ -230,7 +230,7 @@ const std::vector<std::pair<std::string, Method>>& methods() {
 
 }  // namespace
 
-LinearEquation::LinearEquation(const LinearModel& model, const ActingInputs& inputs)
+LinearEquation::LinearEquation(const LinearModel& model, const AppliedInputs& inputs)
     : model_(model), inputs_(inputs) {
   for (const HarmonicForce& force : model.forces) {
     const double frequency = std::fabs(force.frequency);

@@ -1,8 +1,8 @@
-// What each method makes of a linear system: the matrices of one step (linear_step.h). Prepared
-// once; nothing here is for the real-time path.
+// Matrices of one step of each method for a linear system (linear_stepper.h). Prepared once; not
+// real-time safe.
 //
-// What an input is at the start of a step does the work u . dq, with every method; what it changes
-// by in the step works by the method's own nodes.
+// The value of an input at the start of a step does the work u . dq with every method; the work of
+// its change in the step is computed at the method's nodes.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,24 +10,24 @@
 #include <string>
 #include <vector>
 
-#include "integration/acting_inputs.h"
+#include "integration/applied_inputs.h"
 #include "mechanics/linear_dynamics.h"
 
 namespace whirl_twin {
 
 /// The system in y = (q, v, cos w_1 t, sin w_1 t, cos w_2 t ..., u_1, u_1' ...): one pair of
 /// phasors for every frequency of its forces, 0 among them, then one pair for each input
-/// (acting_inputs.h, in units of 1 s).
+/// (applied_inputs.h, in units of 1 s).
 class LinearEquation {
  public:
-  LinearEquation(const LinearModel& model, const ActingInputs& inputs);
+  LinearEquation(const LinearModel& model, const AppliedInputs& inputs);
 
   Eigen::Index dof() const { return model_.mass.rows(); }
   Eigen::Index size() const { return forcing_.cols() + 2 * dof(); }        ///< of y
   const std::vector<double>& frequencies() const { return frequencies_; }  ///< [rad/s], >= 0
   const LinearModel& model() const { return model_; }
   const Eigen::MatrixXd& forcing() const { return forcing_; }  ///< F with f = F pairs [n x .]
-  const ActingInputs& inputs() const { return inputs_; }
+  const AppliedInputs& inputs() const { return inputs_; }
   Eigen::Index inputColumn(Eigen::Index k) const;  ///< in y, of the pair of an input
   /// G of a pair of phasors or of an input, y' = G y.
   Eigen::Matrix2d generator(Eigen::Index pair) const;
@@ -40,7 +40,7 @@ class LinearEquation {
 
  private:
   const LinearModel& model_;
-  const ActingInputs& inputs_;
+  const AppliedInputs& inputs_;
   std::vector<double> frequencies_;
   Eigen::MatrixXd forcing_;
 };
@@ -57,7 +57,7 @@ LinearStepMap linearStepMap(const LinearEquation& equation, const std::string& m
 /// Those of exact steps of 1, 2, 4 ... nanoseconds, up to the longest of at most `longest` [ns].
 std::vector<LinearStepMap> exactParts(const LinearEquation& equation, std::int64_t longest);
 
-/// The names it knows.
+/// The supported names.
 const std::vector<std::string>& linearMethodNames();
 
 }  // namespace whirl_twin

@@ -12,21 +12,21 @@ namespace whirl_twin {
 namespace {
 
 /// Coordinates up to which steps of further lengths cost little to prepare.
-constexpr int kMostStarted = 8;
+constexpr int kMaxStarted = 8;
 /// Of a step, its first part.
 constexpr double kFirstPart = 1.0 / 32.0;
 
 }  // namespace
 
 LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
-                                       JacobiIntegral jacobi, const Excitation& excitation,
+                                       JacobiIntegral jacobi, const StepContext& excitation,
                                        double step, int substeps, std::vector<LocalForce> forces)
     : LinearRotorStepper(std::move(dynamics), std::move(jacobi), excitation, step, substeps,
                          excitation.drive.speedRange(), excitation.drive.constantSpeeds(),
                          std::move(forces)) {}
 
 LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
-                                       JacobiIntegral jacobi, const Excitation& excitation,
+                                       JacobiIntegral jacobi, const StepContext& excitation,
                                        double step, int substeps,
                                        const std::pair<double, double>& speeds,
                                        std::vector<double> constant_speeds,
@@ -52,7 +52,7 @@ LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
       next_(dynamics_->dof()),
       finer_(dynamics_->dof()) {
   for (double part = kFirstPart;
-       !forcing_.forces.empty() && dynamics_->dof() <= kMostStarted && part < 0.5; part *= 2.0) {
+       !forcing_.forces.empty() && dynamics_->dof() <= kMaxStarted && part < 0.5; part *= 2.0) {
     starting_.emplace_back(dynamics_->linearRotor(), part * step / substeps, speeds,
                            constant_speeds_, forcing_);
   }
@@ -153,7 +153,7 @@ StepStatus LinearRotorStepper::stepPart(double, std::int64_t from, std::int64_t 
   return StepStatus::kOk;
 }
 
-/// Takes the step from state_ to next_ once more, in halves.
+/// Repeats the step from state_ to next_ as two half steps.
 void LinearRotorStepper::estimateError() noexcept {
   finer_ = state_;
   halves_.restart();
@@ -164,7 +164,7 @@ void LinearRotorStepper::estimateError() noexcept {
       return;
     }
   }
-  // Of the coordinates: what the rates of stiff modes are off by comes and goes within a step.
+  // Of the coordinates: the error of the rates of stiff modes oscillates within a step.
   errors_.add(dof(), step_, state_.v().data(), next_.q().data(), next_.v().data(),
               finer_.q().data(), next_.v().data(), [&](std::size_t i) { return angular_[i] != 0; });
 }

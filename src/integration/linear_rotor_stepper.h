@@ -1,5 +1,5 @@
-// A linear rotor given by its matrices, stepped exactly; forces at places along it that are not
-// linear are stepped with it (forced_rotor_step.h).
+// Exact stepper of a linear rotor given by its matrices, also with nonlinear nodal forces
+// (forced_rotor_step.h).
 #pragma once
 
 #include <functional>
@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "integration/excitation.h"
 #include "integration/forced_rotor_step.h"
 #include "integration/jacobi_integral.h"
+#include "integration/step_context.h"
 #include "integration/step_error_sum.h"
 #include "integration/step_parts.h"
 #include "integration/stepper.h"
@@ -24,7 +24,7 @@ class LinearRotorStepper final : public Stepper {
   /// dynamics have another Jacobi integral, with the motion of the unbalance in it, `jacobi` is
   /// that, and what it changes by besides is added to the work.
   LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics, JacobiIntegral jacobi,
-                     const Excitation& excitation, double step, int substeps,
+                     const StepContext& excitation, double step, int substeps,
                      std::vector<LocalForce> forces = {});
 
   StepStatus step(double time) noexcept override;
@@ -41,7 +41,7 @@ class LinearRotorStepper final : public Stepper {
 
  private:
   LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics, JacobiIntegral jacobi,
-                     const Excitation& excitation, double step, int substeps,
+                     const StepContext& excitation, double step, int substeps,
                      const std::pair<double, double>& speeds, std::vector<double> constant_speeds,
                      std::vector<LocalForce> forces);
   double furtherEnergy() const noexcept;
@@ -51,7 +51,7 @@ class LinearRotorStepper final : public Stepper {
 
   std::shared_ptr<const Dynamics> dynamics_;
   JacobiIntegral jacobi_;  ///< may be empty
-  Excitation excitation_;
+  StepContext excitation_;
   double step_;  ///< [s]
   int substeps_;
   std::vector<double> constant_speeds_;  ///< [rad/s]

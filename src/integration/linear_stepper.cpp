@@ -41,7 +41,7 @@ void LinearMotion::advance(const double* increment, double energy) noexcept {
 }
 
 LinearStep::LinearStep(const LinearModel& model, const std::string& method, double h,
-                       const ActingInputs& inputs)
+                       const AppliedInputs& inputs)
     : n_(model.mass.rows()), inputs_(inputs) {
   const LinearEquation equation(model, inputs_);
   frequencies_ = equation.frequencies();
@@ -94,7 +94,7 @@ void LinearStep::advanceInParts(double time, std::int64_t from, std::int64_t to,
 }
 
 bool isFinite(const LinearMotion& motion) noexcept {
-  // What is not finite makes its sum so.
+  // A value that is not finite makes the sum not finite.
   return isFinite(motion.work.high + motion.state.sum());
 }
 
@@ -170,7 +170,7 @@ StepStatus LinearStepper::stepPart(double time, std::int64_t from, std::int64_t 
   return StepStatus::kOk;
 }
 
-/// Takes the step from state_ to next_ once more, in halves.
+/// Repeats the step from state_ to next_ as two half steps.
 void LinearStepper::estimateError(double time) noexcept {
   finer_ = state_;
   const double h = 0.5 * substep_;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "integration/acting_inputs.h"
+#include "integration/applied_inputs.h"
 #include "integration/motion_state.h"
 #include "integration/packed_matrix.h"
 #include "integration/step_error_sum.h"
@@ -25,18 +25,18 @@ namespace whirl_twin {
 // Every method here is itself linear: with y = (q, v, cos w_k t, sin w_k t) for every frequency w_k
 // of the forces, a step is
 //   (dq, dv) = B y,      work done by and lost from the system = y^T W y,
-// and B and W, made once, are all that tells one method from another. The methods are those of
+// and the methods differ only in B and W, computed once. The methods are those of
 // semi_implicit_euler.h, velocity_verlet.h, runge_kutta_4.h, dormand_prince_8.h and
-// gauss_legendre.h (implicit_midpoint, gauss_legendre_4 and gauss_legendre_6), equal to them but
-// for rounding; the work is the method's own quadrature of dh/dt, which for the last three is
-// exactly what h = T + V gains. `exponential` has no truncation error: B = e^(A h) - I and W =
-// integral of e^(A't) S e^(At), y' = A y, dh/dt = y^T S y; so it is exact for any step, at undamped
-// resonance, with rigid-body modes and with unstable ones. The phasors come from the time at every
-// step anew, so that no phase is lost over any number of steps.
+// gauss_legendre.h (implicit_midpoint, gauss_legendre_4 and gauss_legendre_6), equal to them up to
+// rounding; the work is the method's quadrature of dh/dt, which for the last three is exactly the
+// change of h = T + V. `exponential` has no truncation error: B = e^(A h) - I and W = integral of
+// e^(A't) S e^(At), y' = A y, dh/dt = y^T S y; so it is exact for any step, at undamped resonance,
+// with rigid-body modes and with unstable ones. The phasors are computed from the time at every
+// step, so that no phase error accumulates.
 //
-// Inputs are columns, too (acting_inputs.h). A step inside which one of them has a corner is gone
-// through in parts of 2^k nanoseconds, by their exact maps whatever the method: any instant is a
-// sum of such parts, and only tables have it prepared.
+// Inputs are columns, too (applied_inputs.h). A step with a breakpoint of an input inside is
+// divided into sub-steps of 2^k nanoseconds with exact maps, for any method: any instant is a sum
+// of such sub-steps. These maps are prepared for tables only.
 
 /// The state of n coordinates, each number as a compensated sum (motion_state.h).
 struct LinearMotion {
@@ -63,13 +63,14 @@ class LinearStep {
   /// Prepares steps of h [s]; for n coordinates that takes a time of order n^3. Throws
   /// std::logic_error for a method that is not among linearMethodNames().
   LinearStep(const LinearModel& model, const std::string& method, double h,
-             const ActingInputs& inputs = {});
+             const AppliedInputs& inputs = {});
 
-  /// Advances by h from time [s], with inputs that stand `offset` [s] before it and have no corner
-  /// in the step. Real-time safe. A state beyond the range of doubles comes out infinite or NaN.
+  /// Advances by h from time [s], with inputs whose begin() is `offset` [s] before it and that have
+  /// no breakpoint in the step. Real-time safe. A state beyond the range of doubles becomes
+  /// infinite or NaN.
   void advance(double time, LinearMotion& motion, double offset = 0.0) noexcept;
-  /// Advances from one instant to another, both in [ns] after the instant at which the inputs
-  /// stand, which is `time` [s], across any corners of theirs. Real-time safe; they must be tables.
+  /// Advances from one instant to another, both in [ns] after the begin() of the inputs at `time`
+  /// [s], across any of their breakpoints. Real-time safe; they must be tables.
   void advanceInParts(double time, std::int64_t from, std::int64_t to,
                       LinearMotion& motion) noexcept;
 
@@ -78,7 +79,7 @@ class LinearStep {
                                LinearMotion& motion) noexcept;
 
   Eigen::Index n_;
-  ActingInputs inputs_;
+  AppliedInputs inputs_;
   std::vector<double> frequencies_;  ///< [rad/s], of the phasors
   PackedMatrix map_;                 ///< B and W
   std::vector<PackedMatrix> parts_;  ///< of 1, 2, 4 ... ns
@@ -91,7 +92,7 @@ bool isFinite(const LinearMotion& motion) noexcept;
 /// q, v and the work, one after the other. Real-time safe.
 void write(const LinearMotion& motion, double* out) noexcept;
 
-/// The directions of inputs side by side [n x m].
+/// The directions of the inputs as columns [n x m].
 Eigen::MatrixXd directionsOf(const std::vector<InputInfo>& inputs, Eigen::Index n);
 
 class LinearStepper final : public Stepper {
@@ -102,7 +103,7 @@ class LinearStepper final : public Stepper {
                 const Inputs* inputs = nullptr);
 
   StepStatus step(double time) noexcept override;
-  /// Exact, whatever the method.
+  /// Exact for any method.
   StepStatus stepPart(double time, std::int64_t from, std::int64_t to) noexcept override;
   std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.dof()); }
   void motion(double* out) const noexcept override;
@@ -114,7 +115,7 @@ class LinearStepper final : public Stepper {
  private:
   void estimateError(double time) noexcept;
 
-  ActingInputs inputs_;
+  AppliedInputs inputs_;
   LinearStep method_;
   LinearStep halves_;  ///< of half the length
   StepParts<LinearStep> parts_;

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "integration/stepped_ahead.h"
+#include "integration/macro_step.h"
 #include "integration/stepped_system.h"
 #include "integration/stepper.h"
 
@@ -51,7 +51,7 @@ std::vector<std::string> methodNames(MethodList<Methods...>) {
   return names;
 }
 
-/// One that steps ahead of the twin (stepped_ahead.h), `count` of its steps at once; under inputs,
+/// One that steps ahead of the twin (macro_step.h), `count` of its steps at once; under inputs,
 /// with friction that can hold and where a spin is a coordinate, as the twin does.
 template <class Model, class Method>
 std::unique_ptr<Stepper> makeAhead(const Model& model, const Method& method, const Drive& drive,
@@ -66,14 +66,14 @@ std::unique_ptr<Stepper> makeAhead(const Model& model, const Method& method, con
   if (corners || Form::hasSpin(model) || count == 1) {
     return near;
   }
-  count = std::min(count, SteppedAhead::kMostSteps);
+  count = std::min(count, MacroStep::kMaxSteps);
   const double length = count * step;
-  return std::make_unique<SteppedAhead>(
+  return std::make_unique<MacroStep>(
       std::make_unique<System>(model, drive, inputs, length, 1, method), std::move(near),
       method.scheme(), Form::hasShaft(model) ? &drive : nullptr, length, count);
 }
 
-/// With that method if it is of the name asked for.
+/// Creates a stepper with that method if its name matches.
 template <class Model, class Method>
 void makeStepperOf(const Model& model, const std::string& integrator, const Drive& drive,
                    const InputForce& inputs, double step, int substeps,

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "integration/called_step.h"
+#include "integration/erased_step.h"
 #include "integration/exponential.h"
 #include "integration/stepped_model.h"
 
@@ -38,8 +38,8 @@ struct MethodStep {
   /// The equations reached by calls.
   static StepStatus called(Method& method, const Equation& equation, double offset, double h,
                            MotionState<n>& state) noexcept {
-    return withCalls(equation, [&](const CalledEquation<n>& by_calls) {
-      return calledStep(method, by_calls, offset, h, state);
+    return withCalls(equation, [&](const ErasedOde<n>& by_calls) {
+      return erasedStep(method, by_calls, offset, h, state);
     });
   }
   /// The exact step under inputs is another engine's (models/exact_stepper.h), but of loads that
@@ -49,9 +49,9 @@ struct MethodStep {
   /// The same, under inputs.
   static StepStatus calledWith(const InputForce& inputs, Method& method, const Equation& equation,
                                double offset, double h, MotionState<n>& state) noexcept {
-    return withCalls(equation, [&](CalledEquation<n> by_calls) {
+    return withCalls(equation, [&](ErasedOde<n> by_calls) {
       by_calls.inputs = &inputs;
-      return calledStep(method, by_calls, offset, h, state);
+      return erasedStep(method, by_calls, offset, h, state);
     });
   }
 
@@ -63,7 +63,7 @@ struct MethodStep {
 
  private:
   template <std::size_t count>
-  static Function choice(const CalledModel<count>*) {
+  static Function choice(const ErasedModel<count>*) {
     return called;
   }
   template <class Composed>

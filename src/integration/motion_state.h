@@ -18,7 +18,7 @@ enum class StepStatus : std::uint8_t {
   kNotFinite = 1,       ///< the new state has an infinity or a NaN
   kNotConverged = 2,    ///< an implicit step found no solution
   kOutOfRange = 3,      ///< the shaft runs at a speed that the step was not prepared for
-  kControllerLost = 4,  ///< one in another process, and what it acts on was to stop then
+  kControllerLost = 4,  ///< one in a different process, and the plant was to stop then
   kNoGap = 5,           ///< a magnetic bearing has no gap left: the rotor touches its poles
 };
 

@@ -1,10 +1,9 @@
-// A dense matrix made to be multiplied by a vector once a step: the whole cost of an exact linear
-// step.
+// A dense matrix packed for matrix-vector products, the main cost of an exact linear step.
 //
-// Its rows lie in panels of sixteen, each read once from end to end; columns that are zero
-// throughout a panel are left out, so that a triangle costs half, and blocks of zeros nothing. On
-// x86-64 the loop is compiled for several widths of vector (vector_widths.h) and the machine's own
-// is taken; machines with fused products and sums differ from others in the last bits.
+// Its rows lie in panels of sixteen, each read once sequentially; columns that are zero throughout
+// a panel are omitted, so that a triangular matrix costs half, and zero blocks nothing. On x86-64
+// the loop is compiled for several vector widths (simd_vector.h) and the width of the processor is
+// used; processors with fused multiply-add differ from others in the last bits.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +19,7 @@ class PackedMatrix {
 
   static constexpr std::size_t kTogether = 5;
 
-  /// Columns of a panel that stand side by side.
+  /// Adjacent columns of a panel.
   struct Run {
     Eigen::Index first;
     Eigen::Index end;

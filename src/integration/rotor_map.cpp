@@ -7,7 +7,7 @@
 #include "algebra/constants.h"
 #include "algebra/dense.h"
 #include "integration/matrix_exponential.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -116,7 +116,7 @@ std::vector<ForceChannel> forceChannels(const LinearRotor& rotor) {
   return channels;
 }
 
-Index RotorMap::inputs(Index dof, std::size_t channels, const ActingInputs& acting, int degree) {
+Index RotorMap::inputs(Index dof, std::size_t channels, const AppliedInputs& acting, int degree) {
   Index size = 2 * dof + 2 * static_cast<Index>(channels) * (degree + 1) + 1;
   for (Index k = 0; k < acting.count(); ++k) {
     size += acting.columns(k, degree);
@@ -127,7 +127,7 @@ Index RotorMap::inputs(Index dof, std::size_t channels, const ActingInputs& acti
 // In x = L^T q, L L^T = M, rates over the highest frequency, forcing over the deflection it causes:
 // then the norm of h A is that of frequency times step, whatever the units and the masses.
 RotorMap::RotorMap(const LinearRotor& rotor, const std::vector<ForceChannel>& channels,
-                   const ActingInputs& acting, double speed, double h, int degree)
+                   const AppliedInputs& acting, double speed, double h, int degree)
     : n_(rotor.dof()),
       h_(h),
       l_(rotor.matrices(speed)),

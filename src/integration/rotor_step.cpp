@@ -131,7 +131,7 @@ const double* RotorStep::constantStart(const Drive& drive, double offset,
   return y_.data();
 }
 
-/// Fills y_, and tells how much of it.
+/// Fills y_ and returns the number of entries.
 Index RotorStep::startOf(const ShaftMotion& shaft, double offset, std::int64_t piece,
                          const LinearMotion& motion) noexcept {
   y_.head(2 * n_) = motion.state;
@@ -238,7 +238,7 @@ void RotorStep::changingStep(Cell& cell, const LinearMotion& motion) noexcept {
   increment_ += result_.head(2 * n_);
   y_.head(2 * n_) += result_.head(2 * n_);
   if (sheared) {
-    // Its inverse, by two rounds: what it leaves is of order e^3, for e^2 would add up.
+    // Its inverse, by two iterations: the residual is of order e^3; one of e^2 would accumulate.
     shear(cell, s, e, y_.data() + n_);
     rates_ = y_.segment(n_, n_) - shear_.head(n_);
     shear(cell, s, e, rates_.data());

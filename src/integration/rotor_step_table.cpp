@@ -7,7 +7,7 @@
 #include "algebra/constants.h"
 #include "algebra/dense.h"
 #include "integration/rotor_step.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -17,11 +17,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double kTableError = 1.0e-12;  // of a cell's map, relative to its largest entry
-constexpr double kSmoothError = 0.1 * kTableError;  // of what the cells are taken from
-constexpr double kMostRounding = 1.0e-9;
+constexpr double kSmoothError = 0.1 * kTableError;  // of the interpolant that the cells are
+                                                    // computed from
+constexpr double kMaxRounding = 1.0e-9;
 constexpr double kNoChange = 1.0e-15;
 constexpr double kSlopeRounding = 1.0e-10;
-constexpr double kMostCells = 4096.0;
+constexpr double kMaxCells = 4096.0;
 
 /// d(K+N, C+G)/dw at a speed; part by part, so that what does not change leaves no rounding.
 MatrixXd forceSlope(const LinearRotor& rotor, double speed) {
@@ -43,7 +44,7 @@ void requireFinite(const MatrixXd& matrix) {
 }  // namespace
 
 RotorStep::RotorStep(const LinearRotor& rotor, double h, const std::pair<double, double>& speeds,
-                     const std::vector<double>& constant_speeds, const ActingInputs& acting,
+                     const std::vector<double>& constant_speeds, const AppliedInputs& acting,
                      AuditedWork audited)
     : n_(rotor.dof()), h_(h), channels_(forceChannels(rotor)), acting_(acting), audited_(audited) {
   for (const double speed : constant_speeds) {
@@ -91,7 +92,7 @@ void RotorStep::prepare(const LinearRotor& rotor, const std::pair<double, double
                            [this](const MatrixXd& error, const MatrixXd& exact) {
                              return relativeError(error, exact);
                            },
-                           kSmoothError, kMostRounding);
+                           kSmoothError, kMaxRounding);
     // Narrow enough at both ends of a stretch of smooth matrices: narrow enough throughout.
     const double range = ends[i + 1] - ends[i];
     double count = 1.0;
@@ -101,13 +102,13 @@ void RotorStep::prepare(const LinearRotor& rotor, const std::pair<double, double
       const double error = std::max(cubicError(map, ends[i], ends[i] + width),
                                     cubicError(map, ends[i + 1] - width, ends[i + 1]));
       // What no longer falls is the rounding of a very stiff rotor's map.
-      const bool rounding = error < kMostRounding && error > 0.5 * before;
+      const bool rounding = error < kMaxRounding && error > 0.5 * before;
       if (error <= kTableError || rounding) {
         break;
       }
       count *= std::clamp(std::pow(error / kTableError, 0.25), 1.5, 8.0);
       before = error;
-      if (count + static_cast<double>(cells_.size()) > kMostCells) {
+      if (count + static_cast<double>(cells_.size()) > kMaxCells) {
         throw RunFailure(
             "the rotor's matrices change too fast with speed for its step: shorten the step");
       }
@@ -125,14 +126,14 @@ Index RotorStep::tableInputs() const {
   return RotorMap::inputs(n_, channels_.size(), acting_, kDegree);
 }
 
-/// The increments and below them, where the work is taken by it, the upper triangle of W.
+/// The increments and below them, where the work is computed from it, the upper triangle of W.
 MatrixXd RotorStep::tableMap(const LinearRotor& rotor, double speed) const {
   const RotorMap map(rotor, channels_, acting_, speed, h_, kDegree);
   return by_form_ ? stackedStep(map.increment(), map.work(audited_ == AuditedWork::kAll))
                   : map.increment();
 }
 
-/// Does K follow the speed? Then the change of its energy is work besides.
+/// Whether K depends on the speed. Then the change of its energy is additional work.
 bool RotorStep::stiffnessChanges(const LinearRotor& rotor,
                                  const std::pair<double, double>& speeds) const {
   const MatrixXd first = rotor.matrices(speeds.first).stiffness;

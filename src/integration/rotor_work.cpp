@@ -41,7 +41,7 @@ void RotorWork::setPhasors(const ShaftMotion& shaft, double* phasors,
   *rates = 0.0;
 }
 
-void RotorWork::evaluate(RotorWorkCell& cell, const ShaftMotion& shaft, const ActingInputs& acting,
+void RotorWork::evaluate(RotorWorkCell& cell, const ShaftMotion& shaft, const AppliedInputs& acting,
                          double tau, const Eigen::Ref<const Eigen::VectorXd>& state,
                          Eigen::VectorXd& end) noexcept {
   const Index n2 = state.size();
@@ -68,7 +68,7 @@ void RotorWork::evaluate(RotorWorkCell& cell, const ShaftMotion& shaft, const Ac
 
 template <class Shaft>
 void RotorWork::start(RotorWorkCell& cell, const Shaft& drive, double offset,
-                      const ActingInputs& acting,
+                      const AppliedInputs& acting,
                       const Eigen::Ref<const Eigen::VectorXd>& state) noexcept {
   const double hair = ShaftNodes::kSliver * h_;
   const bool corner = drive.nextCorner(offset) - offset < hair;
@@ -83,9 +83,9 @@ void RotorWork::start(RotorWorkCell& cell, const Shaft& drive, double offset,
   evaluate(cell, shaft, acting, 0.0, state, from_);
 }
 
-/// Where the profile has a corner the drive's acceleration jumps, and with it the second and third
-/// derivative of z: what grows from the jump until the end is taken from the interpolant, and put
-/// back behind the corner.
+/// At a breakpoint of the profile the drive's acceleration jumps, and with it the second and third
+/// derivative of z: the contribution of the jump is subtracted from the interpolant at the end, and
+/// added back after the breakpoint.
 template <class Shaft>
 void RotorWork::takeJump(const Shaft& drive, double offset, double corner) noexcept {
   const Index size = basis_.cols();
@@ -134,7 +134,7 @@ void RotorWork::deflectionAt(double tau, const Weights& weights, double corner) 
   z_rate_ /= h_;
 }
 
-/// z and z' of a node, as the `place`th of those that are looked at together.
+/// z and z' of a node, as number `place` of those that are evaluated together.
 void RotorWork::takeNode(const RotorWorkCell& cell, const ShaftNode& node, const Weights& weights,
                          double corner, std::size_t place) noexcept {
   constexpr std::size_t kTogether = PackedMatrix::kTogether;
@@ -153,7 +153,7 @@ void RotorWork::takeNode(const RotorWorkCell& cell, const ShaftNode& node, const
 }
 
 /// After takeNode() of it and RotorWorkCell::forces.
-double RotorWork::power(const ShaftNode& node, const ActingInputs& acting,
+double RotorWork::power(const ShaftNode& node, const AppliedInputs& acting,
                         std::size_t place) noexcept {
   constexpr std::size_t kTogether = PackedMatrix::kTogether;
   pull_.setZero();
@@ -191,12 +191,12 @@ double RotorWork::power(const ShaftNode& node, const ActingInputs& acting,
 
 template <class Shaft>
 double RotorWork::work(RotorWorkCell& cell, const Shaft& drive, double offset,
-                       const ShaftNodes& nodes, const ActingInputs& acting,
+                       const ShaftNodes& nodes, const AppliedInputs& acting,
                        const Eigen::Ref<const Eigen::VectorXd>& state) noexcept {
   if (basis_.cols() == 0) {
     return 0.0;
   }
-  // The first corner inside the step is followed; at further ones the interpolant loses order.
+  // The first breakpoint inside the step is resolved; at further ones the interpolant loses order.
   const double corner = nodes.firstCorner();
   const double hair = ShaftNodes::kSliver;
   const double next = (drive.nextCorner(offset + (1.0 - 2.0 * hair) * h_) - offset) / h_;
@@ -210,7 +210,7 @@ double RotorWork::work(RotorWorkCell& cell, const Shaft& drive, double offset,
   last_jerk_ = end.jerk;
   static_assert(PackedMatrix::kTogether == ShaftNodes::kNodes.size());
   double sum = 0.0;
-  // Of a step, or of a part of it up to a corner.
+  // Of a step, or of a sub-step up to a breakpoint.
   for (const ShaftNode* part = nodes.begin(); part != nodes.end(); part += weights_.size()) {
     for (std::size_t i = 0; i < weights_.size(); ++i) {
       takeNode(cell, part[i], nodes.plain() ? weights_[i] : weightsAt(part[i].tau), corner, i);
@@ -223,15 +223,15 @@ double RotorWork::work(RotorWorkCell& cell, const Shaft& drive, double offset,
   return h_ * sum;
 }
 
-template void RotorWork::start(RotorWorkCell&, const Drive&, double, const ActingInputs&,
+template void RotorWork::start(RotorWorkCell&, const Drive&, double, const AppliedInputs&,
                                const Eigen::Ref<const Eigen::VectorXd>&) noexcept;
-template void RotorWork::start(RotorWorkCell&, const ShaftCourse&, double, const ActingInputs&,
+template void RotorWork::start(RotorWorkCell&, const ShaftCourse&, double, const AppliedInputs&,
                                const Eigen::Ref<const Eigen::VectorXd>&) noexcept;
 template double RotorWork::work(RotorWorkCell&, const Drive&, double, const ShaftNodes&,
-                                const ActingInputs&,
+                                const AppliedInputs&,
                                 const Eigen::Ref<const Eigen::VectorXd>&) noexcept;
 template double RotorWork::work(RotorWorkCell&, const ShaftCourse&, double, const ShaftNodes&,
-                                const ActingInputs&,
+                                const AppliedInputs&,
                                 const Eigen::Ref<const Eigen::VectorXd>&) noexcept;
 
 }  // namespace whirl_twin

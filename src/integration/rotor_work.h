@@ -2,10 +2,10 @@
 //
 //   dh/dt = q'^T (f - C q' - N q) + a q^T (dK/dw) q / 2,
 //
-// by five-point Gauss quadrature (order 10). Only the deflections z = L^T q in which forces act and
-// dampers move do work, often a few of many; between the ends of the step they follow the
-// polynomial of degree seven that has their values and first three derivatives at both ends. What
-// that leaves open is (w h)^8 / 1e7 of the work at a frequency w.
+// by five-point Gauss quadrature (order 10). Only the deflections z = L^T q at which forces and
+// dampers act do work, often a few of many; in the step they are the Hermite interpolant of degree
+// seven through their values and first three derivatives at both ends. The relative error of the
+// work is (w h)^8 / 1e7 at a frequency w.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "control/drive.h"
-#include "integration/acting_inputs.h"
+#include "integration/applied_inputs.h"
 #include "integration/packed_matrix.h"
 #include "integration/rotor_map.h"
 #include "integration/shaft_nodes.h"
@@ -41,7 +41,7 @@ class RotorWork {
   /// driven: the forces that turn with the shaft do work, which a shaft that moves by itself has of
   /// its own.
   RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& channels,
-            const ActingInputs& acting, double h, const std::pair<double, double>& speeds,
+            const AppliedInputs& acting, double h, const std::pair<double, double>& speeds,
             bool driven = true);
 
   RotorWorkCell cell(const LinearRotor& rotor, double low, double high) const;
@@ -55,17 +55,17 @@ class RotorWork {
   }
   /// The state (q, v) before the step that starts at offset [s], which the inputs have taken up.
   template <class Shaft>
-  void start(RotorWorkCell& cell, const Shaft& drive, double offset, const ActingInputs& acting,
+  void start(RotorWorkCell& cell, const Shaft& drive, double offset, const AppliedInputs& acting,
              const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
   /// [J], with the state after it; `nodes` of the same step.
   template <class Shaft>
   double work(RotorWorkCell& cell, const Shaft& drive, double offset, const ShaftNodes& nodes,
-              const ActingInputs& acting, const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
+              const AppliedInputs& acting, const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
 
  private:
   using Weights = Eigen::Matrix<double, 8, 2>;
 
-  void evaluate(RotorWorkCell& cell, const ShaftMotion& shaft, const ActingInputs& acting,
+  void evaluate(RotorWorkCell& cell, const ShaftMotion& shaft, const AppliedInputs& acting,
                 double tau, const Eigen::Ref<const Eigen::VectorXd>& state,
                 Eigen::VectorXd& end) noexcept;
   template <class Shaft>
@@ -74,7 +74,7 @@ class RotorWork {
   void deflectionAt(double tau, const Weights& weights, double corner) noexcept;
   void takeNode(const RotorWorkCell& cell, const ShaftNode& node, const Weights& weights,
                 double corner, std::size_t place) noexcept;
-  double power(const ShaftNode& node, const ActingInputs& acting, std::size_t place) noexcept;
+  double power(const ShaftNode& node, const AppliedInputs& acting, std::size_t place) noexcept;
   Eigen::Index phasorCount() const noexcept;
   void setPhasors(const ShaftMotion& shaft, double* phasors, double* rates) const noexcept;
 
@@ -88,11 +88,11 @@ class RotorWork {
   Eigen::MatrixXd acceleration_by_force_;  ///< L^T M^-1 F of channels, load and inputs
   Eigen::Matrix<double, 8, 8> hermite_;    ///< powers of tau as weights of the data at the ends
   std::array<Weights, ShaftNodes::kNodes.size()> weights_;  ///< at the nodes of a plain step
-  // Room for a step.
+  // Work space of a step.
   Eigen::VectorXd from_, to_;  ///< z and its derivatives at the ends
   bool continued_ = false;     ///< from_ may be taken from the last step
   double last_acceleration_ = 0.0, last_jerk_ = 0.0;
-  Eigen::VectorXd jump_;  ///< h^2 z'' and h^3 z''', at a corner
+  Eigen::VectorXd jump_;  ///< h^2 z'' and h^3 z''', at a breakpoint
   Eigen::VectorXd inputs_, phasors_, rates_;
   Eigen::VectorXd z_, z_rate_, pull_;
   Eigen::VectorXd moved_, pulled_;  ///< of RotorWorkCell::forces, for PackedMatrix::kTogether nodes

@@ -1,4 +1,4 @@
-// What the work of a run-up's steps (rotor_work.h) is prepared of.
+// Prepared quadrature cells of the work of a run-up's steps (rotor_work.h).
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -71,7 +71,7 @@ Polynomial parabola(const MatrixXd& below, const MatrixXd& middle, const MatrixX
 }  // namespace
 
 RotorWork::RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& channels,
-                     const ActingInputs& acting, double h, const std::pair<double, double>& speeds,
+                     const AppliedInputs& acting, double h, const std::pair<double, double>& speeds,
                      bool driven)
     : h_(h), driven_(driven), channels_(channels), directions_(acting.directions()) {
   const Index n = rotor.dof();

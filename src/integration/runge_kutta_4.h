@@ -27,18 +27,18 @@ struct RungeKutta4 {
                                     MotionState<n>& state) {
     constexpr std::size_t kStages = 4;
     constexpr std::array<double, kStages> kNodes{0.0, 0.5, 0.5, 1.0};
-    using Lanes = whirl_twin::Lanes<n>;
-    const Lanes q0(state.q);
-    const Lanes v0(state.v);
-    std::array<Lanes, kStages> rates;
-    std::array<Lanes, kStages> accelerations;
+    using SimdVector = whirl_twin::SimdVector<n>;
+    const SimdVector q0(state.q);
+    const SimdVector v0(state.v);
+    std::array<SimdVector, kStages> rates;
+    std::array<SimdVector, kStages> accelerations;
     std::array<double, kStages> powers;
-    Lanes q = q0;
-    Lanes v = v0;
+    SimdVector q = q0;
+    SimdVector v = v0;
     const auto stage = [&](std::size_t k) WHIRL_TWIN_FLAT {
       const auto found = equation(q.array(), v.array(), offset + kNodes[k] * h);
       rates[k] = v;
-      accelerations[k] = Lanes(found.acceleration);
+      accelerations[k] = SimdVector(found.acceleration);
       powers[k] = found.power;
       const double ahead = h * kNodes[k + 1 < kStages ? k + 1 : k];
       q = q0;
@@ -58,13 +58,13 @@ struct RungeKutta4 {
     }
     // At the end and not on the way: the stages would wait for sums.
     const auto mean = [](const auto& of) {
-      Lanes sum = of[1] + of[2];
+      SimdVector sum = of[1] + of[2];
       sum = sum + sum + of[0] + of[3];
       return sum;
     };
-    Lanes dq{};
+    SimdVector dq{};
     dq.add(h / 6.0, mean(rates));
-    Lanes dv{};
+    SimdVector dv{};
     dv.add(h / 6.0, mean(accelerations));
     const double energy = h / 6.0 * (powers[0] + 2.0 * (powers[1] + powers[2]) + powers[3]);
     state.advance(dq.array(), dv.array(), energy);

@@ -1,10 +1,10 @@
 // Semi-implicit (symplectic) Euler:  v1 = v0 + h a(q0, v0),  q1 = q0 + h v1.
 //
 // Order 1. Symplectic for T(v) + V(q) systems: there the energy error stays bounded of order h.
-// (Hairer, Lubich & Wanner, Geometric Numerical Integration, VI.3.) Forces that depend on the rates
-// are taken explicitly at the start of the step: gyroscopic terms make it unstable at any step
-// without damping, and it guarantees nothing about accuracy beyond h |lambda| << 1.
-// Stable for h |lambda| < 2 on an undamped oscillator.
+// (Hairer, Lubich & Wanner, Geometric Numerical Integration, VI.3.) Rate-dependent forces are
+// evaluated explicitly at the start of the step: gyroscopic terms make it unstable at any step
+// without damping, and it is accurate for h |lambda| << 1 only. Stable for h |lambda| < 2 on an
+// undamped oscillator.
 #pragma once
 
 #include "integration/motion_state.h"
@@ -22,10 +22,10 @@ struct SemiImplicitEuler {
   WHIRL_TWIN_INLINE StepStatus step(const Equation& equation, double offset, double h,
                                     MotionState<n>& state) {
     const auto start = equation(state.q, state.v, offset);
-    Lanes<n> dv{};
-    dv.add(h, Lanes<n>(start.acceleration));
-    Lanes<n> dq{};
-    dq.add(h, Lanes<n>(state.v) + dv);
+    SimdVector<n> dv{};
+    dv.add(h, SimdVector<n>(start.acceleration));
+    SimdVector<n> dq{};
+    dq.add(h, SimdVector<n>(state.v) + dv);
     state.advance(dq.array(), dv.array(), h * start.power);
     return StepStatus::kOk;
   }

@@ -1,5 +1,5 @@
-// The motion of a shaft at the nodes of a quadrature over one step, piece by piece between the
-// corners of the drive's profile, so that no corner costs the quadrature its order.
+// The motion of a shaft at the nodes of a quadrature over one step, piecewise between the
+// breakpoints of the drive's profile, so that no breakpoint reduces the order of the quadrature.
 #pragma once
 
 #include <array>
@@ -72,10 +72,10 @@ class ShaftNodes {
   /// Where in the step the acceleration or jerk first jumps; 1 if nowhere inside.
   double firstCorner() const noexcept { return first_corner_; }
 
-  /// No corner inside: the nodes are kNodes.
+  /// No breakpoint inside: the nodes are kNodes.
   bool plain() const noexcept { return count_ == kNodes.size(); }
 
-  /// Of a step: a corner as near its ends as this is rounding.
+  /// Of a step: a breakpoint this near its ends is rounding.
   static constexpr double kSliver = 1.0e-11;
   /// Gauss-Legendre, order 10.
   static constexpr std::array<double, 5> kNodes{0.046910077030668003601, 0.23076534494715845448,

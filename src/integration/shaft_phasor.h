@@ -1,9 +1,9 @@
 // e^(i theta) of a shaft at constant speed at the start of each of many equal steps: by one complex
-// product a step, anew from the angle every so often, and whenever the angle is not the one
-// foreseen.
+// product a step, recomputed from the angle periodically and whenever the angle is not the
+// predicted one.
 //
-// A product rounds by some 1e-16, and so does the angle it is for; between two fresh starts that
-// adds up to some 5e-15.
+// The rounding of a product is some 1e-16, as is that of the angle; between two recomputations the
+// sum is some 5e-15.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@
 
 namespace whirl_twin {
 
-// The motion of a shaft over one step as a polynomial of time, without corners: what a step knows
-// of a shaft that moves by itself. It answers where a Drive would be asked.
+// The motion of a shaft with free spin over one step as a polynomial of time, without breakpoints.
+// It has the interface of a Drive.
 
 struct ShaftCourse {
   double start = 0.0;  ///< [s], after begin() of the inputs: where the step starts
@@ -67,8 +67,8 @@ class ShaftPhasor {
   static constexpr int kSteps = 16;
 
   double turn_ = 0.0;   ///< [rad], of a step
-  double angle_ = 0.0;  ///< [rad], that phasor_ stands at
-  int steps_left_ = 0;  ///< until it is made anew
+  double angle_ = 0.0;  ///< [rad], of phasor_
+  int steps_left_ = 0;  ///< until it is recomputed
   SineCosine phasor_{0.0, 1.0};
   SineCosine rotation_{0.0, 1.0};
 };

@@ -1,15 +1,15 @@
-// The spin of a shaft that a motor turns, over one step: the balance of torques of
-// mechanics/spin_coupling.h, beside a rotor whose whirl a step takes along any course of the speed.
+// Spin of a motor-driven shaft over one step: the torque balance of mechanics/spin_coupling.h, for
+// a rotor whose whirl can be stepped along a given function of the speed.
 //
 // With the momentum P = J w + s . q' that balance needs no accelerations,
 //
 //   P' = T(w) - d w + w (ds/dtheta) . q' + q^T N_1 q' - w q^T S q + m
 //
-// (m: inputs and friction), so that stiff modes, whose accelerations no step resolves, leave no
-// mark. Radau IIA with three nodes (order 5): speeds at the nodes are sought that the rotor, taken
-// along the cubic through them, agrees with. What the speeds do to the whirl is small beside what
-// they are (m e^2 / J), and what the motor's law does to them goes by Newton's method, so that one
-// or two rounds mend the course that the last step foretells.
+// (m: inputs and friction), so that stiff modes, whose accelerations no step resolves, have no
+// effect. Radau IIA with three nodes (order 5): the speeds at the nodes are iterated until they are
+// consistent with the rotor stepped along the cubic through them. The coupling to the whirl is weak
+// (m e^2 / J), and the motor characteristic is treated by Newton's method, so that one or two
+// iterations correct the speed course extrapolated from the last step.
 #pragma once
 
 #include <Eigen/Core>
@@ -66,13 +66,14 @@ class ShaftSpin {
     nodes_[node].torque += torque;
     nodes_[node].rate += torque;
   }
-  /// After all nodes: the course mended. False: it has lost the numbers.
+  /// After all nodes: corrects the speed course. False: singular equations, or a speed that is not
+  /// finite or above 1e300.
   bool mend() noexcept;
-  /// Did the last mend() move it by no more than rounding?
+  /// Whether the last mend() changed it by no more than rounding.
   bool agrees() const noexcept { return agrees_; }
-  /// Puts the spin at the end of the step; tells the work of what acts on it [J].
+  /// Sets the spin to the end of the step; returns the work of the torques on it [J].
   double finish(SpinMotion& spin) noexcept;
-  /// [rad/s^2], of a spin that nothing but its motor turns.
+  /// [rad/s^2], of a spin driven by its motor alone.
   double freeAcceleration(double speed) const noexcept;
 
  private:

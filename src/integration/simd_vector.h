@@ -1,6 +1,6 @@
-// One piece of code, compiled for several widths of vector: the machine's widest is taken, and the
-// build still runs on any x86-64. The width is the machine's own: vectors that are wider compilers
-// take in parts, through memory, which is slower than none.
+// SIMD code compiled for several vector widths: the widest of the processor is selected at run
+// time, so that a build runs on any x86-64. Vectors wider than the registers are avoided: compilers
+// split them through memory, which is slower than scalar code.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace whirl_twin {
 
-/// Doubles side by side.
+/// A vector of doubles.
 template <int lanes>
 struct Vector {
   typedef double Type __attribute__((vector_size(8 * lanes), may_alias));
@@ -56,25 +56,25 @@ void inWidestVectors(const Body& body) noexcept {
 // equations take.
 
 template <std::size_t n>
-class Lanes {
+class SimdVector {
  public:
-  Lanes() = default;
-  WHIRL_TWIN_INLINE explicit Lanes(const std::array<double, n>& x) : x_(x) {}
+  SimdVector() = default;
+  WHIRL_TWIN_INLINE explicit SimdVector(const std::array<double, n>& x) : x_(x) {}
   WHIRL_TWIN_INLINE const std::array<double, n>& array() const { return x_; }
-  WHIRL_TWIN_INLINE void add(double factor, const Lanes& other) {
+  WHIRL_TWIN_INLINE void add(double factor, const SimdVector& other) {
     for (std::size_t i = 0; i < n; ++i) {
       x_[i] += factor * other.x_[i];
     }
   }
-  WHIRL_TWIN_INLINE Lanes operator+(const Lanes& other) const {
-    Lanes sum = *this;
+  WHIRL_TWIN_INLINE SimdVector operator+(const SimdVector& other) const {
+    SimdVector sum = *this;
     for (std::size_t i = 0; i < n; ++i) {
       sum.x_[i] += other.x_[i];
     }
     return sum;
   }
-  WHIRL_TWIN_INLINE Lanes operator-(const Lanes& other) const {
-    Lanes rest = *this;
+  WHIRL_TWIN_INLINE SimdVector operator-(const SimdVector& other) const {
+    SimdVector rest = *this;
     for (std::size_t i = 0; i < n; ++i) {
       rest.x_[i] -= other.x_[i];
     }
@@ -86,19 +86,19 @@ class Lanes {
 };
 
 template <>
-class Lanes<2> {
+class SimdVector<2> {
  public:
-  Lanes() = default;
-  WHIRL_TWIN_INLINE explicit Lanes(const std::array<double, 2>& x) : x_{x[0], x[1]} {}
+  SimdVector() = default;
+  WHIRL_TWIN_INLINE explicit SimdVector(const std::array<double, 2>& x) : x_{x[0], x[1]} {}
   WHIRL_TWIN_INLINE std::array<double, 2> array() const { return {x_[0], x_[1]}; }
-  WHIRL_TWIN_INLINE void add(double factor, const Lanes& other) { x_ += factor * other.x_; }
-  WHIRL_TWIN_INLINE Lanes operator+(const Lanes& other) const {
-    Lanes sum;
+  WHIRL_TWIN_INLINE void add(double factor, const SimdVector& other) { x_ += factor * other.x_; }
+  WHIRL_TWIN_INLINE SimdVector operator+(const SimdVector& other) const {
+    SimdVector sum;
     sum.x_ = x_ + other.x_;
     return sum;
   }
-  WHIRL_TWIN_INLINE Lanes operator-(const Lanes& other) const {
-    Lanes rest;
+  WHIRL_TWIN_INLINE SimdVector operator-(const SimdVector& other) const {
+    SimdVector rest;
     rest.x_ = x_ - other.x_;
     return rest;
   }

@@ -1,4 +1,4 @@
-// What of a step is rounding.
+// Rounding limits of step lengths.
 #pragma once
 
 #include <cmath>

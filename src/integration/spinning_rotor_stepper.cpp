@@ -10,7 +10,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kLargestStart = 0x1p53 * ShaftAngle::kTurn;  // beyond it no angle has a phase
+constexpr double kMaxStart = 0x1p53 * ShaftAngle::kTurn;  // beyond it no angle has a phase
 
 RotorForcing forcingOf(const SpinningRotor& dynamics, const Inputs* inputs) {
   RotorForcing forcing;
@@ -30,7 +30,7 @@ bool finite(const LinearMotion& motion, const SpinMotion& spin) noexcept {
 }  // namespace
 
 SpinningRotorStepper::SpinningRotorStepper(std::shared_ptr<const SpinningRotor> dynamics,
-                                           const Excitation& excitation, double step, int substeps,
+                                           const StepContext& excitation, double step, int substeps,
                                            const std::pair<double, double>& speeds)
     : dynamics_(std::move(dynamics)),
       step_(step),
@@ -101,7 +101,7 @@ StepStatus SpinningRotorStepper::stepPart(double, std::int64_t from, std::int64_
   return StepStatus::kOk;
 }
 
-/// Takes the step from state_ to next_ once more, in halves.
+/// Repeats the step from state_ to next_ as two half steps.
 void SpinningRotorStepper::estimateError() noexcept {
   finer_ = state_;
   finer_spin_ = spin_;
@@ -113,8 +113,8 @@ void SpinningRotorStepper::estimateError() noexcept {
       return;
     }
   }
-  // Of the coordinates and of the spin: what the rates of stiff modes are off by comes and goes
-  // within a step. Angles are told apart by their remainders, for turns are whole.
+  // Of the coordinates and of the spin: the error of the rates of stiff modes oscillates within a
+  // step. Angles are compared by their remainders, as turns are whole numbers.
   const std::size_t n = dof();
   const auto put = [&](const LinearMotion& motion, double angle, double speed, double* out) {
     std::copy_n(motion.q().data(), n - 1, out);
@@ -149,10 +149,10 @@ void SpinningRotorStepper::set(const double* q, const double* v) noexcept {
   const std::size_t n = dof();
   state_.set(q, v);
   const double angle = q[n - 1];
-  const bool has_phase = std::isfinite(angle) && std::fabs(angle) < kLargestStart;
+  const bool has_phase = std::isfinite(angle) && std::fabs(angle) < kMaxStart;
   spin_.set(has_phase ? angle : 0.0, v[n - 1], free_.freeAcceleration(v[n - 1]));
   if (!has_phase) {
-    spin_.angle.high = angle;  // no step goes on from there
+    spin_.angle.high = angle;  // no step continues from there
   }
   method_.restart();
   errors_.restart();

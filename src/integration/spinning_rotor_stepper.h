@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "integration/excitation.h"
 #include "integration/forced_rotor_step.h"
+#include "integration/step_context.h"
 #include "integration/step_error_sum.h"
 #include "integration/step_parts.h"
 #include "integration/stepper.h"
@@ -19,7 +19,7 @@ namespace whirl_twin {
 class SpinningRotorStepper final : public Stepper {
  public:
   /// `substeps` in a step [s] of the twin, at speeds [rad/s] from speeds.first to speeds.second.
-  SpinningRotorStepper(std::shared_ptr<const SpinningRotor> dynamics, const Excitation& excitation,
+  SpinningRotorStepper(std::shared_ptr<const SpinningRotor> dynamics, const StepContext& excitation,
                        double step, int substeps, const std::pair<double, double>& speeds);
 
   StepStatus step(double time) noexcept override;

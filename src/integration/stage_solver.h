@@ -59,7 +59,7 @@ class StageSolver {
   StageSolver(double h, const Table& a, const Table& aa,
               const AccelerationJacobian<n>& jacobian) noexcept
       : factors_(matrix(h, a, aa, jacobian)) {}
-  /// The correction of the stages' accelerations that a residual [as them] asks for.
+  /// The correction of the stages' accelerations for a residual in the same units.
   Stages solve(const Stages& residual) const noexcept {
     Stages correction = residual;
     factors_.solve(correction[0].data());

@@ -1,16 +1,16 @@
-// The errors of a method's steps, added up from a sample of them.
+// Accumulated error of a method's steps, estimated from a sample of them.
 //
-// A step of the sample is taken twice, the second time in halves; what the two differ by is the
-// error of that step (order p leaves out a part of 2^-p of it), and stands for all steps since the
-// one before it in the sample: the first, the second, the fourth ... the 64th, then one in 64 (or
-// in another power of two). The sum is relative to the largest coordinates and rates so far,
-// lengths and angles each by themselves; of an angle that is larger than one radian, in radians.
+// A step of the sample is repeated as two half steps; the difference is the error of that step (up
+// to a fraction 2^-p of it at order p), and represents all steps since the previous one in the
+// sample: the first, the second, the fourth ... the 64th, then one in 64 (or in another power of
+// two). The sum is relative to the largest coordinates and rates so far, lengths and angles
+// separately; for an angle larger than one radian, in radians.
 //
 // A motion from rest is small at first. So the first 64 steps count relative to the sizes at the
 // 64th, or the present ones before; and their rates relative to sqrt(a q) at least, a the
 // acceleration at the start, which is the largest rate of a harmonic motion that starts from rest
 // at q (a = w^2 q, v = w q). Where a size more than doubles from one sample to the next the motion
-// starts again, after a rest: a force or a drive sets in.
+// has restarted from standstill, as when a force or a drive sets in.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ inline constexpr int kLinearErrorEvery = 256;
 
 class StepErrorSum {
  public:
-  /// Of one step in so many, once the beginning is over.
+  /// Of one step in this number, after the start.
   explicit StepErrorSum(int every = 64, bool adding_up = true)
       : every_(every), adding_up_(adding_up) {}
 
@@ -73,7 +73,7 @@ class StepErrorSum {
       taken_ = 0;
     }
   }
-  /// The step has no second outcome.
+  /// The step has no second result.
   void passOver() noexcept {
     taken_ += gap_;
     gap_ = taken_ < every_ ? taken_ : every_;
@@ -90,7 +90,7 @@ class StepErrorSum {
     double v = 0.0;
   };
 
-  /// That an error stands for.
+  /// Number of steps that an error represents.
   double steps() const noexcept { return adding_up_ ? gap_ : 1; }
 
   bool grew(const std::array<Size, 2>& before) const noexcept {
@@ -135,7 +135,7 @@ class StepErrorSum {
   bool started_ = false;
   double early_sum_ = 0.0;
   double sum_ = 0.0;
-  int gap_ = 1;         ///< steps that the next of the sample stands for
+  int gap_ = 1;         ///< steps that the next of the sample represents
   int taken_ = 0;       ///< of all steps, as far as it matters
   int until_next_ = 1;  ///< steps
 };

@@ -1,4 +1,4 @@
-// The methods a system can be stepped with, by what is known of them before a run.
+// Integration methods and their properties known before a run.
 //
 // Which engine steps which system, and why (docs/architecture.md has the same table):
 //
@@ -7,16 +7,16 @@
 //     energies, nonlinear: pendulums, free_rotor,     any but          SteppedSystem<Model, Method>
 //     a rotor with hysteresis, rub, motor or films    exponential
 //         Method and energies are one function after compiling, where `auto` may take the method;
-//         others are reached by calls (called_system.h). `auto` calibrates. What rests on
-//         earlier steps (stoermer) drops them at corners, commands and changes. SteppedAhead takes
-//         many of the twin's steps at once where nothing acts from outside (stoermer_ahead).
+//         others are type-erased (erased_system.h). `auto` calibrates. Multistep history
+//         (stoermer) is discarded at breakpoints, commands and changes. MacroStep takes
+//         one macro-step for many of the twin's steps without external input (stoermer_ahead).
 //
 //     energies, linear, of two coordinates:           exponential      LateralRotorStepper
 //     jeffcott_rotor
 //         Two oscillators that the shaft drives and couples. At constant speed the plain exact
 //         step, the forces turned from step to step with the shaft; in a run-up 4, 8 or 12 Gauss
-//         nodes at the drive's exact angle, as many as the step needs, side by side in vectors.
-//         Very stiff ones (more than 640 rad a step) go by LinearRotorStepper.
+//         nodes at the drive's exact angle, as many as the step needs, in SIMD vectors.
+//         Very stiff ones (more than 640 rad a step) use LinearRotorStepper.
 //
 //     energies, linear, without a shaft:              exponential      SteppedSystem<Model,
 //     friction_oscillator                                                           Exponential>
@@ -33,20 +33,20 @@
 //
 //     energies, linear, any of the above, with        exponential      LinearRotorStepper
 //     inputs                                                           (RotorStep)
-//         The inputs are columns of its matrices, as they are of LinearStepper's (acting_inputs.h).
-//         With any other method they are a generalized force (input_force.h).
+//         The inputs are columns of its matrices, as they are of LinearStepper's
+//         (applied_inputs.h). With any other method they are a generalized force (input_force.h).
 //
 //     energies, linear, any of the above              any other        SteppedSystem<Model, Method>
-//         As asked for: comparison, `twin tradeoff`.
+//         On request: comparison, `twin tradeoff`.
 //
-//     energies, with dry friction that can hold       any              SteppedSystem<CalledModel,
+//     energies, with dry friction that can stick       any              SteppedSystem<ErasedModel,
 //                                                                                    Method>
-//         In parts between beginning and end of sliding (dry_friction_step.h); never ahead.
+//         Sub-steps between start and end of sliding (dry_friction_step.h); no macro-steps.
 //
 //     matrices as functions of speed, of any size:    exponential,     LinearRotorStepper
 //     flexible_rotor; any rotor on magnets            no other         (RotorStep)
-//         Fixed sizes at compile time end at a few coordinates. linearRotorSetup(). Forces at
-//         places that are not linear are solved for beside it (forced_rotor_step.h).
+//         Too many coordinates for fixed sizes. linearRotorSetup(). Nonlinear nodal forces
+//         are solved for in addition (forced_rotor_step.h).
 //
 //     energies, a linear part and forces at           exponential      LinearRotorStepper
 //     places: jeffcott_rotor in journal bearings                       (ForcedRotorStep)
@@ -63,13 +63,13 @@
 //
 //     an ensemble of isotropic rotors, constant       exponential      IsotropicRotors
 //     matrices, on a drive or at constant speed
-//         One complex number a rotor, side by side in vectors; the shaft's forces are evaluated
-//         once for all. Not where a step has very many parts (ensemble_members.cpp).
+//         One complex number a rotor, in SIMD vectors; the shaft's forces are evaluated
+//         once for all. Not where a step has very many sub-steps (ensemble_members.cpp).
 //
-//     an ensemble of 12 or more pendulums or          runge_kutta_4,   MemberSteps
+//     an ensemble of 12 or more pendulums or          runge_kutta_4,   BatchRungeKutta
 //     mechanisms, without inputs                      dormand_prince_8
-//         Energies, parameters and states of 32 members in one loop, which compilers make vectors
-//         of (side_by_side.cpp).
+//         Energies, parameters and states of 32 systems in one loop, which compilers
+//         vectorize (batched_models.cpp).
 //
 //     any other ensemble                              its system's     its system's, one by one
 #pragma once
@@ -93,11 +93,11 @@ struct StepMethod {
   /// iterations. Where they are not what a step takes, as many as take its time (a stage of
   /// runge_kutta_4 being one).
   double evaluations;
-  /// Steps that it has to have taken before it is the method that it says.
+  /// Steps of history that it requires before it runs as the named method.
   std::size_t past = 0;
-  /// The `substeps` of a system are not its steps in one of the twin, but the twin's in one of its.
+  /// The `substeps` of a system count the twin's steps in one of the method's, not the reverse.
   bool ahead = false;
-  /// Only for whom asks for it: no calibration takes it.
+  /// Only when requested by name: no calibration selects it.
   bool by_name = false;
 
   /// Its steps in one of the twin.

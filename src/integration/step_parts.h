@@ -1,5 +1,5 @@
-// A step taken in parts, from instant to instant of the controllers: a map prepared for each length
-// of a part.
+// A step divided into sub-steps between the instants of the controllers, with a map prepared for
+// each length.
 #pragma once
 
 #include <cstdint>

@@ -1,12 +1,12 @@
-// What SteppedSystem asks of a model: constants of one that it is composed with, or what a
-// CalledModel says.
+// Properties of a model required by SteppedSystem: compile-time constants, or the values of a
+// ErasedModel.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
-#include "integration/called_equation.h"
 #include "integration/driven_equation.h"
+#include "integration/erased_ode.h"
 
 namespace whirl_twin {
 
@@ -23,7 +23,7 @@ struct SteppedModel {
   static constexpr bool hasSpin(const Model&) { return HasSpin<Model>::value; }
   static constexpr bool angular(const Model&, std::size_t i) { return formOf<Model>().angular[i]; }
   static EquationsOfMotion<double, n> at(const Model& model, const Array& q, const Array& v,
-                                         const Moment<double>& at) noexcept {
+                                         const EvaluationPoint<double>& at) noexcept {
     return equationsAt(model, q, v, at);
   }
   static WHIRL_TWIN_INLINE Equation equation(const Model& model, const Drive& drive, double time) {
@@ -32,10 +32,10 @@ struct SteppedModel {
 };
 
 template <std::size_t n>
-struct SteppedModel<CalledModel<n>> {
+struct SteppedModel<ErasedModel<n>> {
   using Array = std::array<double, n>;
-  using Model = CalledModel<n>;
-  using Equation = CalledEquation<n>;
+  using Model = ErasedModel<n>;
+  using Equation = ErasedOde<n>;
   static constexpr bool kMayStick = true;
 
   static bool sticks(const Model& model) { return model.calls().dryContacts().count > 0; }
@@ -43,7 +43,7 @@ struct SteppedModel<CalledModel<n>> {
   static bool hasSpin(const Model& model) { return model.calls().form().has_spin; }
   static bool angular(const Model& model, std::size_t i) { return model.calls().form().angular[i]; }
   static EquationsOfMotion<double, n> at(const Model& model, const Array& q, const Array& v,
-                                         const Moment<double>& at) noexcept {
+                                         const EvaluationPoint<double>& at) noexcept {
     return model.calls().at(q, v, at);
   }
   static Equation equation(const Model& model, const Drive& drive, double time) {

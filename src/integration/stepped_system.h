@@ -1,6 +1,6 @@
 // Model x method, composed at compile time: compiled only in the translation units of models/, with
-// the flags that let the compiler delete a dual's dead terms; or with a CalledModel in place of the
-// model (called_system.h). The finiteness check reads bits.
+// the flags that let the compiler delete a dual's dead terms; or with a ErasedModel in place of the
+// model (erased_system.h). The finiteness check reads bits.
 #pragma once
 
 #include <array>
@@ -15,17 +15,17 @@
 #include "integration/dry_friction_step.h"
 #include "integration/finite.h"
 #include "integration/input_force.h"
+#include "integration/macro_step.h"
 #include "integration/method_step.h"
 #include "integration/sliver.h"
 #include "integration/step_error_sum.h"
-#include "integration/stepped_ahead.h"
 #include "integration/stepped_model.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
 
 namespace whirl_twin {
 
-/// A method whose steps rest on those before: its past is dropped where the motion is not smooth.
+/// A multistep method: its history is discarded where the motion is not smooth.
 template <class Method, class = void>
 struct HasHistory : std::false_type {};
 template <class Method>
@@ -71,8 +71,8 @@ class SteppedSystem final : public ReadOffStepper {
     motion(out);
     out[2 * n] = state_.work.high;
   }
-  /// Of a method with a past, where no spin is a coordinate.
-  void readOff([[maybe_unused]] const StoermerReading& reading, [[maybe_unused]] bool with_work,
+  /// Of a multistep method, where no spin is a coordinate.
+  void readOff([[maybe_unused]] const DenseOutputWeights& reading, [[maybe_unused]] bool with_work,
                [[maybe_unused]] double* out) const noexcept override {
     if constexpr (kHasHistory) {
       method_.readOff(reading, state_, with_work, out);
@@ -87,7 +87,7 @@ class SteppedSystem final : public ReadOffStepper {
   bool shaft(ShaftState& out) const noexcept override {
     if (hasSpin()) {
       // No load on a rotor depends on the time by itself.
-      auto eom = Form::at(model_, state_.q, state_.v, Moment<double>{});
+      auto eom = Form::at(model_, state_.q, state_.v, EvaluationPoint<double>{});
       if (inputs_.acts()) {
         std::array<double, n> applied;
         inputs_.now(applied.data());
@@ -106,7 +106,7 @@ class SteppedSystem final : public ReadOffStepper {
       state_.v[i] = v[i];
     }
     turns_ = 0;
-    if (hasSpin() && isFinite(q[kSpin]) && std::fabs(q[kSpin]) < kLargestStart) {
+    if (hasSpin() && isFinite(q[kSpin]) && std::fabs(q[kSpin]) < kMaxStart) {
       const ShaftAngle angle = shaftAngle(q[kSpin]);
       turns_ = angle.turns;
       state_.q[kSpin] = angle.remainder;
@@ -163,7 +163,7 @@ class SteppedSystem final : public ReadOffStepper {
     wholeTurns();
     return StepStatus::kOk;
   }
-  /// The state is again what it was: the past that the method has is another's.
+  /// The state was restored: the history of the method belongs to a different motion.
   [[gnu::noinline, gnu::cold]] StepStatus goBack(const MotionState<n>& start,
                                                  StepStatus why) noexcept {
     state_ = start;
@@ -182,13 +182,13 @@ class SteppedSystem final : public ReadOffStepper {
     return all;
   }
 
-  /// A spin that went further in one step has no phase left in a double.
+  /// A larger angle in one step has no significant phase in a double.
   WHIRL_TWIN_INLINE bool hasPhase(const MotionState<n>& state) const noexcept {
-    return !hasSpin() || std::fabs(state.q[kSpin]) < kMostTurned;
+    return !hasSpin() || std::fabs(state.q[kSpin]) < kMaxTurned;
   }
 
   /// The spin is stepped as whole turns and a remainder, so that its phase is as exact after a
-  /// month as after a second; 2 pi is taken off with 106 bits.
+  /// month as after a second; 2 pi is subtracted with 106 bits.
   WHIRL_TWIN_INLINE void wholeTurns() noexcept {
     if (!hasSpin()) {
       return;
@@ -211,8 +211,8 @@ class SteppedSystem final : public ReadOffStepper {
     return {turns_, angle < 0.0 ? 0.0 : angle};  // below 0 only by rounding
   }
 
-  /// One step of the method, in parts where the drive or an input has a corner inside it: across a
-  /// corner a method would lose its order.
+  /// One step of the method, in sub-steps if the drive or an input has a breakpoint inside it:
+  /// across a breakpoint a method would lose its order.
   WHIRL_TWIN_INLINE StepStatus advance(Method& method, const Equation& equation, double offset,
                                        double h, MotionState<n>& state) noexcept {
     if constexpr (Form::kMayStick) {
@@ -249,7 +249,7 @@ class SteppedSystem final : public ReadOffStepper {
     endAtCorner(method, corner, offset + h, h);
     return status;
   }
-  /// From corner to corner of the inputs, in parts during which nothing begins or ends to slide.
+  /// Between breakpoints of the inputs, in sub-steps without start or end of sliding.
   [[gnu::noinline]] StepStatus advanceSticking(Method& method, const Equation& equation,
                                                double offset, double h,
                                                MotionState<n>& state) noexcept {
@@ -270,7 +270,7 @@ class SteppedSystem final : public ReadOffStepper {
             method.restart();
           }
           return inputs_.acts() ? partWithInputs(method, piece, from, length, out)
-                                : calledStep(method, piece, from, length, out);
+                                : erasedStep(method, piece, from, length, out);
         };
         const StepStatus status = dry.take(acted_on, offset, corner - offset, state,
                                            typename DryFrictionStep<n>::Advance(advance));
@@ -285,7 +285,7 @@ class SteppedSystem final : public ReadOffStepper {
     }
     return StepStatus::kOk;
   }
-  /// Beyond a corner a step begins anew, also where the corner is between two steps.
+  /// The method restarts after a breakpoint, also where the breakpoint is between two steps.
   WHIRL_TWIN_INLINE void endAtCorner([[maybe_unused]] Method& method,
                                      [[maybe_unused]] double corner, [[maybe_unused]] double end,
                                      [[maybe_unused]] double h) noexcept {
@@ -338,15 +338,15 @@ class SteppedSystem final : public ReadOffStepper {
         status = inputs_.acts() ? partWithInputs(method, equation, offset, corner - offset, state)
                                 : method_step_(method, equation, offset, corner - offset, state);
       }
-      // Just behind the corner, where the jerk (or acceleration) that follows holds.
+      // Just after the breakpoint, where the jerk (or acceleration) that follows holds.
       offset = std::nextafter(corner, 2.0 * end);
     }
     method.restart();
     return status;
   }
 
-  /// Takes `count` steps of h [s] from `start` to state_ once more, in halves. A method with a past
-  /// knows its error without, once it has one.
+  /// Repeats `count` steps of h [s] from `start` to state_ as half steps. A multistep method with
+  /// full history estimates its error without that.
   [[gnu::noinline]] void estimateError(const Equation& equation, double offset, int count, double h,
                                        const MotionState<n>& start) noexcept {
     const MotionState<n>& end = state_;
@@ -380,8 +380,8 @@ class SteppedSystem final : public ReadOffStepper {
 
   static constexpr double kTwoPi = 6.283185307179586;
   static constexpr double kTwoPiLow = 2.4492935982947064e-16;
-  static constexpr double kMostTurned = 1.0e9 * kTwoPi;     ///< in a step, to 1e-6 rad
-  static constexpr double kLargestStart = 0x1p53 * kTwoPi;  ///< beyond it no angle has a phase
+  static constexpr double kMaxTurned = 1.0e9 * kTwoPi;  ///< in a step, to 1e-6 rad
+  static constexpr double kMaxStart = 0x1p53 * kTwoPi;  ///< beyond it no angle has a phase
 
   Model model_;
   const Drive& drive_;

@@ -34,8 +34,8 @@ class Stepper {
 
   // Real-time safe.
 
-  /// One step of the twin from simulated time `time` [s]. The drive stands at the start of the
-  /// step. If the outcome is not kOk the state stays what it was.
+  /// One step of the twin from simulated time `time` [s]. The drive is at the start of the step. If
+  /// the result is not kOk the state is unchanged.
   virtual StepStatus step(double time) noexcept = 0;
   /// A part of that step, from one instant to another, both [ns] after its start: between two
   /// instants at which controllers act (Inputs::parts()). Parts come in order and make up the step.
@@ -50,9 +50,10 @@ class Stepper {
   /// What the method has got wrong since the state was set: the sum of the errors of its steps, in
   /// parts of the largest coordinates and rates so far, from a sample of them. NaN: not estimated.
   virtual double errorSum() const noexcept { return std::numeric_limits<double>::quiet_NaN(); }
-  /// Sets q and v and forgets the past.
+  /// Sets q and v and discards the history.
   virtual void set(const double* q, const double* v) noexcept = 0;
-  /// All that its next steps hang on, but what it was made of, and the drive and inputs.
+  /// Serializes all state that its next steps depend on, except construction arguments, drive and
+  /// inputs.
   virtual void exchange(StateImage& image) noexcept = 0;
 };
 

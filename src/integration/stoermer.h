@@ -1,39 +1,40 @@
 // Stoermer-Cowell steps in sums (Stoermer 1907, Cowell & Crommelin 1910; Hairer, Norsett & Wanner,
-// Solving Ordinary Differential Equations I, III.10), on (q, v, work): the accelerations of the
-// last steps make the next, so that a step costs one evaluation, or two. With d the last increment
-// of q and the weights of stoermer_weights.h
+// Solving Ordinary Differential Equations I, III.10), on (q, v, work): a multistep method on past
+// accelerations, so that a step costs one evaluation, or two. With d the last increment of q and
+// the weights of stoermer_weights.h
 //
 //   d' = d + h^2 sum b_k a(n - k),  q' = q + d',  v' = d'/h + h sum g_k a(n - k),  a' = a(q', v')
 //
 // explicitly: `stoermer_6` and `stoermer_12`, one evaluation a step. `stoermer` corrects d' and v'
-// by the polynomial that has a' as well, and evaluates a' again there (PECE, 10 terms). q and d are
+// by the polynomial that includes a', and evaluates a' again there (PECE, 10 terms). q and d are
 // compensated sums; the work is that of the polynomial through the powers.
 //
-// Order 6, 11 and 12; what the start is off by falls with the ninth power. Rates are extrapolated,
-// so damping is the limit. Largest h omega that grows by less than 1e-3 a radian, by damping ratio:
+// Order 6, 11 and 12; the starting error is of order 9. Rates are extrapolated, so damping is the
+// limit. Largest h omega that grows by less than 1e-3 a radian, by damping ratio:
 //
 //                  0      0.01   0.05   0.2    0.5
 //   stoermer_6     0.56   0.71   0.40   0.13   0.05
 //   stoermer       0.99   1.02   0.77   0.36   0.16
 //   stoermer_12    0.12   0.04   0.01   0.002  0.0005
 //
-// Twelve explicit terms are for motions that next to nothing damps.
+// Twelve explicit terms are for almost undamped motions.
 //
-// Not symplectic. The past belongs to one motion under one law: at a corner of the drive or of an
-// input, a change of a held input, of a parameter or of the state it is dropped. The first steps
-// (terms - 1 of them) are then taken by dormand_prince_8, while accelerations are gathered.
+// Not symplectic. The history is valid for one smooth motion: it is discarded at a breakpoint of
+// the drive or of an input, and on a change of a zero-order-hold input, of a parameter or of the
+// state. The first steps (terms - 1 of them) are then taken by dormand_prince_8, while
+// accelerations are stored.
 //
-// `stoermer_ahead` is `stoermer` by steps of many of the twin's, which are read off in between
-// (stepped_ahead.h). Its past is made at once: by so many steps of dormand_prince_8 back in time,
-// along the motion that the present law would have come from.
+// `stoermer_ahead` is `stoermer` in macro-steps of many of the twin's, with dense output in between
+// (macro_step.h). Its history is built at once: by steps of dormand_prince_8 backwards in time,
+// with the present equations.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-#include "integration/called_equation.h"
 #include "integration/dormand_prince_8.h"
+#include "integration/erased_ode.h"
 #include "integration/motion_state.h"
 #include "integration/simd_vector.h"
 #include "integration/stoermer_weights.h"
@@ -45,7 +46,7 @@ template <std::size_t n>
 class Stoermer {
  public:
   static constexpr const auto& kSchemes = kStoermerSchemes;
-  /// Its steps rest on those before: what they were taken under must not have changed.
+  /// Multistep method: the conditions of the previous steps must not have changed.
   static constexpr bool kHasHistory = true;
   using Array = std::array<double, n>;
 
@@ -55,7 +56,7 @@ class Stoermer {
   /// Of one that steps ahead: the same by the twin's own steps.
   Stoermer byItself() const { return Stoermer(kSchemes[1]); }
 
-  /// Drops the past.
+  /// Discards the history.
   void restart() {
     ready_for_ = 0.0;
     gathered_ = 0;
@@ -69,21 +70,21 @@ class Stoermer {
     image.requireWithin(gathered_, std::size_t{0}, std::size_t{scheme_->terms});
   }
 
-  /// Was the last step one of its own, and not one of dormand_prince_8?
+  /// Whether the last step was a multistep one, not one of dormand_prince_8.
   bool hasPast() const { return ready_for_ != 0.0; }
 
-  /// What the last step has got wrong of d, to the first order: by the polynomial with one node
-  /// more (Milne's device). (v has an error of its own besides, which does not add up.)
+  /// First-order error of d in the last step: by the polynomial with one more node (Milne's
+  /// device). (v has a further error, which does not accumulate.)
   Array lastError() const {
-    Lanes<n> error{};
+    SimdVector<n> error{};
     for (std::size_t k = 0; k <= scheme_->terms; ++k) {
       error.add(ready_for_ * ready_for_ * scheme_->error[k], past_[newest_ + k]);
     }
     return error.array();
   }
 
-  /// Were the accelerations of the last step, which ended at `end`, told by those of the past but
-  /// for a ten thousandth? Where not, steps of that length do not follow the motion.
+  /// Whether the accelerations of the last step, which ended at `end`, were predicted by the
+  /// history to a relative 1e-4. If not, steps of that length do not resolve the motion.
   bool resolves(const MotionState<n>& end) const noexcept {
     constexpr double kPart = 1.0e-4;
     // What was long ago may be far larger: a past that was made backwards.
@@ -108,13 +109,13 @@ class Stoermer {
     return true;
   }
 
-  /// q, v and, if it is asked for, the work that the last step, which ended at `end`, passed on the
-  /// way; hasPast(). Real-time safe.
-  [[gnu::noinline]] void readOff(const StoermerReading& reading, const MotionState<n>& end,
+  /// q, v and, if requested, the work at a point inside the last step, which ended at `end`;
+  /// requires hasPast(). Real-time safe.
+  [[gnu::noinline]] void readOff(const DenseOutputWeights& reading, const MotionState<n>& end,
                                  bool with_work, double* out) const noexcept {
     const double h = ready_for_;
-    Lanes<n> off{};
-    Lanes<n> v{};
+    SimdVector<n> off{};
+    SimdVector<n> v{};
     double work = 0.0;
     for (std::size_t k = 0; k < scheme_->terms; ++k) {
       off.add(h * h * reading.position[k], past_[newest_ + k]);
@@ -123,8 +124,8 @@ class Stoermer {
     }
     off.add(reading.share - 1.0, increment_);
     v.add(per_step_, increment_);
-    Lanes<n> q(end.q);
-    Lanes<n> q_low(end.q_low);
+    SimdVector<n> q(end.q);
+    SimdVector<n> q_low(end.q_low);
     addTo(q, q_low, off);
     for (std::size_t i = 0; i < n; ++i) {
       out[i] = q.array()[i];
@@ -146,7 +147,7 @@ class Stoermer {
     jerk_ = jerk;
     acceleration_ = acceleration;
   }
-  /// Drops the past if the held part of the force is another than in the last call.
+  /// Discards the history if the zero-order hold part of the force differs from the last call.
   void hold(const double* force) {
     for (std::size_t i = 0; i < n; ++i) {
       if (force[i] != held_[i]) {
@@ -166,33 +167,33 @@ class Stoermer {
         return status;
       }
     }
-    const Lanes<n> q0(state.q);
-    const Lanes<n> last = past_[newest_];
-    Lanes<n> increment = known_increment_;
+    const SimdVector<n> q0(state.q);
+    const SimdVector<n> last = past_[newest_];
+    SimdVector<n> increment = known_increment_;
     increment.add(position_[0], last);
     // What waits for the last acceleration comes by one multiplication: the rest was known before.
-    Lanes<n> q = q0 + known_advance_;
-    Lanes<n> v = known_rate_;
+    SimdVector<n> q = q0 + known_advance_;
+    SimdVector<n> v = known_rate_;
     q.add(position_[0], last);
     v.add(rate_[0], last);
-    Lanes<n> corrected_increment{};
-    Lanes<n> corrected_rate{};
+    SimdVector<n> corrected_increment{};
+    SimdVector<n> corrected_rate{};
     if (scheme_->corrected) {
-      const Lanes<n>* const past = &past_[newest_];
+      const SimdVector<n>* const past = &past_[newest_];
       corrected_increment = sumOfPast<kCorrectedTerms - 1>(corrected_position_, past);
       corrected_rate = sumOfPast<kCorrectedTerms - 1>(corrected_rate_, past);
       corrected_rate.add(per_step_, increment_);
     }
     double work = scheme_->corrected            ? prepare<kCorrectedTerms>()
                   : scheme_->terms == kFewTerms ? prepare<kFewTerms>()
-                                                : prepare<kMostTerms>();
+                                                : prepare<kMaxTerms>();
     bool last_evaluation = !scheme_->corrected;
     if (last_evaluation) {
       advance(increment, v, state);
     }
     while (true) {
       const auto found = equation(q.array(), v.array(), offset + h);
-      const Lanes<n> acceleration(found.acceleration);
+      const SimdVector<n> acceleration(found.acceleration);
       if (last_evaluation) {
         work += work_[0] * found.power;
         keep(acceleration, found.power);
@@ -214,23 +215,24 @@ class Stoermer {
 
   static constexpr std::size_t kFewTerms = kSchemes[0].terms;
   static constexpr std::size_t kCorrectedTerms = kSchemes[1].terms;
-  static constexpr std::size_t kMostTerms = kSchemes[3].terms;
+  static constexpr std::size_t kMaxTerms = kSchemes[3].terms;
   static_assert(!kSchemes[0].corrected && kSchemes[1].corrected && !kSchemes[3].corrected &&
-                kSchemes[2].terms == kCorrectedTerms && kMostTerms == stoermer::kMostTerms);
-  static constexpr std::size_t kLength = stoermer::kMostNodes;
+                kSchemes[2].terms == kCorrectedTerms && kMaxTerms == stoermer::kMaxTerms);
+  static constexpr std::size_t kLength = stoermer::kMaxStoermerNodes;
 
-  static WHIRL_TWIN_INLINE void addTo(Lanes<n>& high, Lanes<n>& low, const Lanes<n>& increment) {
-    const Lanes<n> corrected = increment + low;
-    const Lanes<n> sum = high + corrected;
+  static WHIRL_TWIN_INLINE void addTo(SimdVector<n>& high, SimdVector<n>& low,
+                                      const SimdVector<n>& increment) {
+    const SimdVector<n> corrected = increment + low;
+    const SimdVector<n> sum = high + corrected;
     low = corrected - (sum - high);
     high = sum;
   }
 
-  WHIRL_TWIN_INLINE void advance(const Lanes<n>& increment, const Lanes<n>& v,
+  WHIRL_TWIN_INLINE void advance(const SimdVector<n>& increment, const SimdVector<n>& v,
                                  MotionState<n>& state) {
     addTo(increment_, increment_low_, increment);
-    Lanes<n> q(state.q);
-    Lanes<n> q_low(state.q_low);
+    SimdVector<n> q(state.q);
+    SimdVector<n> q_low(state.q_low);
     addTo(q, q_low, increment_);
     state.q = q.array();
     state.q_low = (q_low + increment_low_).array();
@@ -250,22 +252,22 @@ class Stoermer {
     return sumOfPast<terms - 1>(work_, &powers_[newest_]).array()[0];
   }
   /// In two places, so that the past is in a row wherever it begins.
-  WHIRL_TWIN_INLINE void keep(const Lanes<n>& acceleration, double power) {
+  WHIRL_TWIN_INLINE void keep(const SimdVector<n>& acceleration, double power) {
     newest_ = newest_ == 0 ? kLength - 1 : newest_ - 1;
     past_[newest_] = past_[newest_ + kLength] = acceleration;
-    powers_[newest_] = powers_[newest_ + kLength] = Lanes<1>({power});
+    powers_[newest_] = powers_[newest_ + kLength] = SimdVector<1>({power});
   }
 
-  /// One step of dormand_prince_8, or, with all accelerations gathered, what the first of its own
-  /// steps needs.
+  /// One step of dormand_prince_8, or, once all accelerations are stored, the preparation of the
+  /// first multistep step.
   template <class Equation>
   [[gnu::noinline, gnu::cold]] StepStatus start(const Equation& equation, double offset, double h,
                                                 MotionState<n>& state) {
-    return withCalls(equation, [&](const CalledEquation<n>& called) {
+    return withCalls(equation, [&](const ErasedOde<n>& called) {
       return startCalled(called, offset, h, state);
     });
   }
-  [[gnu::noinline]] StepStatus startCalled(const CalledEquation<n>& called, double offset, double h,
+  [[gnu::noinline]] StepStatus startCalled(const ErasedOde<n>& called, double offset, double h,
                                            MotionState<n>& state) {
     if (scheme_->ahead) {
       return startBackwards(called, offset, h, state);
@@ -278,26 +280,26 @@ class Stoermer {
       gathered_at_ = h;
     }
     const Derivative<n> now = called(state.q, state.v, offset);
-    keep(Lanes<n>(now.acceleration), now.power);
+    keep(SimdVector<n>(now.acceleration), now.power);
     if (++gathered_ == scheme_->terms) {
       begin(h, state);
       return StepStatus::kOk;
     }
     DormandPrince8 alone;
-    return calledStep(alone, called, offset, h, state);
+    return erasedStep(alone, called, offset, h, state);
   }
   /// Makes the whole past.
-  StepStatus startBackwards(const CalledEquation<n>& called, double offset, double h,
+  StepStatus startBackwards(const ErasedOde<n>& called, double offset, double h,
                             const MotionState<n>& state) {
     restart();
-    std::array<Derivative<n>, kMostTerms> found;
+    std::array<Derivative<n>, kMaxTerms> found;
     MotionState<n> before = state;
     DormandPrince8 alone;
     for (std::size_t k = 0; k < scheme_->terms; ++k) {
       const double then = offset - static_cast<double>(k) * h;
       found[k] = called(before.q, before.v, then);
       if (k + 1 < scheme_->terms) {
-        const StepStatus status = calledStep(alone, called, then, -h, before);
+        const StepStatus status = erasedStep(alone, called, then, -h, before);
         if (status != StepStatus::kOk) {
           return status;
         }
@@ -306,15 +308,15 @@ class Stoermer {
     past_ = {};
     powers_ = {};
     for (std::size_t k = scheme_->terms; k > 0; --k) {
-      keep(Lanes<n>(found[k - 1].acceleration), found[k - 1].power);
+      keep(SimdVector<n>(found[k - 1].acceleration), found[k - 1].power);
     }
     begin(h, state);
     return StepStatus::kOk;
   }
   void begin(double h, const MotionState<n>& state) {
     per_step_ = 1.0 / h;
-    Lanes<n> behind{};
-    for (std::size_t k = 0; k < kMostTerms; ++k) {
+    SimdVector<n> behind{};
+    for (std::size_t k = 0; k < kMaxTerms; ++k) {
       const StoermerScheme& s = *scheme_;
       position_.set(k, h * h * s.position[k]);
       rate_.set(k, h * (s.position[k] + s.rate[k]));
@@ -323,13 +325,13 @@ class Stoermer {
       work_.set(k, h * s.work[k]);
       behind.add(-h * h * s.backwards[k], past_[newest_ + k]);
     }
-    behind.add(h, Lanes<n>(state.v));
+    behind.add(h, SimdVector<n>(state.v));
     increment_ = behind;
     increment_low_ = {};
     // Of the step that begins now, whose last acceleration is there already.
     const std::size_t now = newest_;
     newest_ = now + 1;
-    prepare<kMostTerms>();
+    prepare<kMaxTerms>();
     newest_ = now;
     known_advance_ = increment_ + known_increment_;
     known_rate_ = known_of_rate_;
@@ -340,15 +342,15 @@ class Stoermer {
   const StoermerScheme* scheme_;
   double ready_for_ = 0.0;  ///< [s], step; 0: the past is not complete
   std::size_t newest_ = 0;
-  Lanes<n> increment_{}, increment_low_{};           ///< d
-  Lanes<n> known_increment_{}, known_advance_{};     ///< of d' - d, of q' - q
-  Lanes<n> known_of_rate_{}, known_rate_{};          ///< of v' - d/h, of v'
-  double per_step_ = 0.0;                            ///< [1/s]
-  Weights position_{}, rate_{};                      ///< times h^2, h
-  NodeWeights<1> work_{};                            ///< times h
-  Weights corrected_position_{}, corrected_rate_{};  ///< times h^2, h
-  std::array<Lanes<n>, 2 * kLength> past_{};         ///< accelerations
-  std::array<Lanes<1>, 2 * kLength> powers_{};       ///< [W]
+  SimdVector<n> increment_{}, increment_low_{};        ///< d
+  SimdVector<n> known_increment_{}, known_advance_{};  ///< of d' - d, of q' - q
+  SimdVector<n> known_of_rate_{}, known_rate_{};       ///< of v' - d/h, of v'
+  double per_step_ = 0.0;                              ///< [1/s]
+  Weights position_{}, rate_{};                        ///< times h^2, h
+  NodeWeights<1> work_{};                              ///< times h
+  Weights corrected_position_{}, corrected_rate_{};    ///< times h^2, h
+  std::array<SimdVector<n>, 2 * kLength> past_{};      ///< accelerations
+  std::array<SimdVector<1>, 2 * kLength> powers_{};    ///< [W]
   std::size_t gathered_ = 0;
   double gathered_at_ = 0.0;  ///< [s], step
   double jerk_ = 0.0;

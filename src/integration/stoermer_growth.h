@@ -1,4 +1,4 @@
-// What Stoermer-Cowell steps (stoermer.h) make of a linear motion: whether they are stable.
+// Stability of Stoermer-Cowell steps (stoermer.h) for a linear motion.
 #pragma once
 
 #include <Eigen/Core>

@@ -10,8 +10,8 @@
 // Equations I, III.10; the rates as of Adams, ibid. III.1). A predictor's nodes are 0, -1, -2 ...,
 // a corrector's 1, 0, -1 ...
 //
-// Within a step, at a share x of it, what the straight line from q(0) to q(1) leaves out is the
-// deflection of a beam under p, zero at both ends (dense output):
+// Dense output: within a step, at a fraction x of it, the deviation from the straight line from
+// q(0) to q(1) is the deflection of a beam under p, zero at both ends:
 //
 //   q(x) = q(1) - (1 - x) d(1) + h^2 int_0^x (x - s) p(s) ds - h^2 x int_0^1 (1 - s) p(s) ds
 #pragma once
@@ -26,22 +26,23 @@ namespace whirl_twin {
 
 namespace stoermer {
 
-/// Accelerations that a step is made of at most, and those that its error is told by.
-inline constexpr std::size_t kMostTerms = 12;
-inline constexpr std::size_t kMostNodes = kMostTerms + 1;
+/// Maximum number of accelerations in a step, and in its error estimate.
+inline constexpr std::size_t kMaxTerms = 12;
+inline constexpr std::size_t kMaxStoermerNodes = kMaxTerms + 1;
 
 /// One for each node, the latest first; 0 beyond the terms of a scheme.
-using Weights = std::array<double, kMostNodes>;
+using Weights = std::array<double, kMaxStoermerNodes>;
 
 /// Of the integral over s^i, i = 0, 1, 2 ...
-using Moments = std::array<long double, kMostNodes>;
+using Moments = std::array<long double, kMaxStoermerNodes>;
 
 /// The Lagrange polynomials of the nodes first, first - 1, ..., by their coefficients of 1, s, s^2
-/// ...: found once for all integrals over them, for compilers bound what a constant may cost.
+/// ...: computed once for all integrals over them, as compilers limit the cost of constant
+/// expressions.
 struct LagrangePolynomials {
   constexpr LagrangePolynomials(std::size_t nodes, int first) : terms(nodes) {
     for (std::size_t j = 0; j < nodes; ++j) {
-      std::array<long double, kMostNodes + 1>& polynomial = coefficients[j];
+      std::array<long double, kMaxStoermerNodes + 1>& polynomial = coefficients[j];
       polynomial[0] = 1.0L;
       for (std::size_t k = 0; k < nodes; ++k) {
         if (k == j) {
@@ -58,9 +59,9 @@ struct LagrangePolynomials {
   }
 
   std::size_t terms;
-  std::array<std::array<long double, kMostNodes + 1>, kMostNodes>
+  std::array<std::array<long double, kMaxStoermerNodes + 1>, kMaxStoermerNodes>
       coefficients{};  ///< whole numbers below 2^53,
-  std::array<long double, kMostNodes> denominators{
+  std::array<long double, kMaxStoermerNodes> denominators{
       1.0L, 1.0L, 1.0L, 1.0L, 1.0L, 1.0L, 1.0L,
       1.0L, 1.0L, 1.0L, 1.0L, 1.0L, 1.0L};  ///< to be divided by these
 };
@@ -80,14 +81,14 @@ constexpr Weights weights(const LagrangePolynomials& lagrange, const Moments& mo
 
 constexpr Moments positionMoments() {
   Moments m{};
-  for (std::size_t i = 0; i < kMostNodes; i += 2) {
+  for (std::size_t i = 0; i < kMaxStoermerNodes; i += 2) {
     m[i] = 2.0L / static_cast<long double>((i + 1) * (i + 2));
   }
   return m;
 }
 constexpr Moments backwardsMoments() {
   Moments m{};
-  for (std::size_t i = 0; i < kMostNodes; ++i) {
+  for (std::size_t i = 0; i < kMaxStoermerNodes; ++i) {
     m[i] = (i % 2 == 0 ? 1.0L : -1.0L) / static_cast<long double>((i + 1) * (i + 2));
   }
   return m;
@@ -95,13 +96,13 @@ constexpr Moments backwardsMoments() {
 /// Of s^power p(s) over the step.
 constexpr Moments stepMoments(std::size_t power) {
   Moments m{};
-  for (std::size_t i = 0; i < kMostNodes; ++i) {
+  for (std::size_t i = 0; i < kMaxStoermerNodes; ++i) {
     m[i] = 1.0L / static_cast<long double>(i + power + 1);
   }
   return m;
 }
 
-/// Of the polynomial with one node more, less those of a scheme of so many terms.
+/// Of the polynomial with one more node, minus those of a scheme with `terms` terms.
 constexpr Weights errorWeights(std::size_t terms, bool corrected) {
   Weights error = weights({terms + 1, 1}, positionMoments());
   const Weights own = weights({terms, corrected ? 1 : 0}, positionMoments());
@@ -112,8 +113,8 @@ constexpr Weights errorWeights(std::size_t terms, bool corrected) {
 }
 
 /// The coefficients of p: of 1, s, s^2 ...
-constexpr std::array<Weights, kMostTerms> polynomial(const LagrangePolynomials& lagrange) {
-  std::array<Weights, kMostTerms> all{};
+constexpr std::array<Weights, kMaxTerms> polynomial(const LagrangePolynomials& lagrange) {
+  std::array<Weights, kMaxTerms> all{};
   for (std::size_t i = 0; i < lagrange.terms; ++i) {
     for (std::size_t j = 0; j < lagrange.terms; ++j) {
       all[i][j] = static_cast<double>(lagrange.coefficients[j][i] / lagrange.denominators[j]);
@@ -129,12 +130,12 @@ struct StoermerScheme {
   const char* name;   ///< as in scene files
   std::size_t terms;  ///< accelerations in its history
   bool corrected;     ///< and evaluated again where the correction leads
-  bool ahead;         ///< steps of the twin are read off within one of its own
+  bool ahead;         ///< steps of the twin are interpolated within one of its own
   stoermer::Weights position, rate;
   stoermer::Weights corrected_position, corrected_rate;
   stoermer::Weights work, backwards;
   stoermer::Weights error;  ///< of a position, at the nodes 1, 0, -1 ...
-  std::array<stoermer::Weights, stoermer::kMostTerms> polynomial;  ///< coefficients of p, likewise
+  std::array<stoermer::Weights, stoermer::kMaxTerms> polynomial;  ///< coefficients of p, likewise
 };
 
 constexpr StoermerScheme stoermerScheme(const char* name, std::size_t terms, bool corrected,
@@ -159,10 +160,10 @@ inline constexpr std::array<StoermerScheme, 4> kStoermerSchemes{
     stoermerScheme("stoermer_6", 6, false), stoermerScheme("stoermer", 10, true),
     stoermerScheme("stoermer_ahead", 10, true, true), stoermerScheme("stoermer_12", 12, false)};
 
-/// What is read off within a step, at a share of it: by the straight line, and weights at the nodes
+/// Dense output within a step, at a fraction of it: by the straight line, and weights at the nodes
 /// 1, 0, -1 ...
-struct StoermerReading {
-  StoermerReading(const StoermerScheme& scheme, double at);
+struct DenseOutputWeights {
+  DenseOutputWeights(const StoermerScheme& scheme, double at);
 
   double share;                      ///< [-], 0..1
   stoermer::Weights position, rate;  ///< times h^2, h
@@ -190,26 +191,27 @@ class NodeWeights {
   }
 
  private:
-  std::array<double, kRepeated * stoermer::kMostNodes> weights_{};
+  std::array<double, kRepeated * stoermer::kMaxStoermerNodes> weights_{};
 };
 
 /// What four doubles side by side are for one value and for two.
 template <class Part>
-WHIRL_TWIN_INLINE Lanes<1> folded(const Part& fours, Lanes<1>) {
-  return Lanes<1>({(fours[0] + fours[2]) + (fours[1] + fours[3])});
+WHIRL_TWIN_INLINE SimdVector<1> folded(const Part& fours, SimdVector<1>) {
+  return SimdVector<1>({(fours[0] + fours[2]) + (fours[1] + fours[3])});
 }
 template <class Part>
-WHIRL_TWIN_INLINE Lanes<2> folded(const Part& fours, Lanes<2>) {
-  return Lanes<2>({fours[0], fours[1]}) + Lanes<2>({fours[2], fours[3]});
+WHIRL_TWIN_INLINE SimdVector<2> folded(const Part& fours, SimdVector<2>) {
+  return SimdVector<2>({fours[0], fours[1]}) + SimdVector<2>({fours[2], fours[3]});
 }
 
-/// The sum of weight[k + 1] past[k] over `nodes` of the past, the latest first: that of the node
-/// that is yet to come, 0, is left out. The latest has just been stored: it would be late as a part
-/// of a longer vector.
+/// The sum of weight[k + 1] past[k] over `nodes` of the history, the latest first: the future node,
+/// 0, is excluded. The latest has just been stored: loading it as part of a longer vector would
+/// stall.
 template <std::size_t nodes, std::size_t n>
-WHIRL_TWIN_INLINE Lanes<n> sumOfPast(const NodeWeights<n>& weights, const Lanes<n>* past) {
+WHIRL_TWIN_INLINE SimdVector<n> sumOfPast(const NodeWeights<n>& weights,
+                                          const SimdVector<n>* past) {
   if constexpr (n <= 2) {
-    static_assert(sizeof(Lanes<n>) == n * sizeof(double));
+    static_assert(sizeof(SimdVector<n>) == n * sizeof(double));
     constexpr std::size_t kSideBySide = 4 / n;
     constexpr std::size_t kVectors = (nodes - 1) / kSideBySide;
     constexpr std::size_t kAlone = nodes - kSideBySide * kVectors;
@@ -218,13 +220,13 @@ WHIRL_TWIN_INLINE Lanes<n> sumOfPast(const NodeWeights<n>& weights, const Lanes<
       fours += FourDoubles<4>::load(weights.from(k + 1)).part[0] *
                FourDoubles<4>::load(reinterpret_cast<const double*>(past + k)).part[0];
     }
-    Lanes<n> sum = folded(fours, Lanes<n>());
+    SimdVector<n> sum = folded(fours, SimdVector<n>());
     for (std::size_t k = kAlone; k > 0; --k) {
       sum.add(weights[k], past[k - 1]);
     }
     return sum;
   } else {
-    Lanes<n> sum{};
+    SimdVector<n> sum{};
     unrolled<nodes>([&](auto from_last) WHIRL_TWIN_FLAT {
       constexpr std::size_t k = nodes - decltype(from_last)::value;
       sum.add(weights[k], past[k - 1]);

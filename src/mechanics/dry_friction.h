@@ -1,13 +1,14 @@
 // Dry (Coulomb) friction where two parts touch: it opposes sliding with a force of constant level,
-// and without sliding it takes any value up to that level, so that it can hold.
+// and without sliding it has any value up to that level (sticking).
 //
 //   Q = -s L G,   s = sign(w) while it slides,   |s| <= 1 while it is held,   w = G . v - u
 //
 // L is the level, G the direction, u the speed of a moving counterpart, s the share of the friction
-// that acts (C. Glocker, Set-Valued Force Laws, Springer 2001, ch. 5). A contact is held at the
+// that acts (C. Glocker, Set-Valued Force Laws, Springer 2001, ch. 5). A contact sticks with the
 // share for which w' = 0; it begins to slide where that share would have to exceed 1. The steps
-// find beginning and end of sliding as events (integration/dry_friction_step.h). A width of more
-// than 0 rounds the law off instead, s = w / sqrt(w^2 + width^2): what would be held then creeps.
+// locate start and end of sliding as events (integration/dry_friction_step.h). A width of more than
+// 0 regularizes the law instead, s = w / sqrt(w^2 + width^2): a contact that would stick then
+// creeps.
 #pragma once
 
 #include <algorithm>
@@ -18,15 +19,15 @@
 #include <type_traits>
 #include <utility>
 
+#include "mechanics/evaluation_point.h"
 #include "mechanics/lagrangian.h"
-#include "mechanics/moment.h"
 
 namespace whirl_twin {
 
-inline constexpr std::size_t kMostContacts = 2;
+inline constexpr std::size_t kMaxContacts = 2;
 
 /// A number for each contact of a model; what is beyond them is 0.
-using ContactNumbers = std::array<double, kMostContacts>;
+using ContactNumbers = std::array<double, kMaxContacts>;
 
 template <std::size_t n>
 struct DryContact {
@@ -36,7 +37,7 @@ struct DryContact {
   double level = 0.0;                 ///< L
   double speed = 0.0;                 ///< u [rad/s] or [m/s]
 
-  /// w [rad/s] or [m/s], as it is computed.
+  /// w [rad/s] or [m/s], as computed.
   double computedSliding(const std::array<double, n>& v) const {
     double w = -speed;
     for (std::size_t i = 0; i < n; ++i) {
@@ -59,7 +60,7 @@ struct DryContact {
 template <std::size_t n>
 struct DryContacts {
   std::size_t count = 0;
-  std::array<DryContact<n>, kMostContacts> at{};
+  std::array<DryContact<n>, kMaxContacts> at{};
 
   /// Without friction, or with one that is rounded off within a width, it is none.
   void add(const DryContact<n>& contact, double width) {
@@ -75,7 +76,7 @@ struct DryContacts {
     }
     return share;
   }
-  /// The shares that are in the model's equations: of the signs of w as it is computed.
+  /// The shares that are in the model's equations: of the signs of the computed w.
   ContactNumbers computedShares(const std::array<double, n>& v) const {
     ContactNumbers share{};
     for (std::size_t j = 0; j < count; ++j) {
@@ -97,7 +98,7 @@ WHIRL_TWIN_INLINE S dryDissipation(double level, double width, const S& w) {
   return w > 0.0 ? level * w : w < 0.0 ? -level * w : 0.0 * w;
 }
 
-/// A model with dry friction says where: dryContacts().
+/// A model with dry friction defines its contacts: dryContacts().
 template <class Model, class = void>
 struct HasDryContacts : std::false_type {
   static DryContacts<Model::kDof> of(const Model&) { return {}; }
@@ -108,7 +109,7 @@ struct HasDryContacts<Model, std::void_t<decltype(std::declval<const Model&>().d
   static DryContacts<Model::kDof> of(const Model& model) { return model.dryContacts(); }
 };
 
-/// A model whose friction depends on its state says how: dryFriction(q, share).
+/// A model with state-dependent friction defines it: dryFriction(q, share).
 template <class Model, class = void>
 struct HasFrictionOfState : std::false_type {};
 template <class Model>
@@ -136,7 +137,7 @@ std::array<double, n> dryFriction(const Model& model, const DryContacts<n>& cont
 /// Which contacts are held, and the shares of all; those of held contacts are found.
 template <std::size_t n>
 struct DryState {
-  std::array<bool, kMostContacts> held{};
+  std::array<bool, kMaxContacts> held{};
   ContactNumbers share{};
 
   bool holdsAny() const { return held[0] || held[1]; }
@@ -167,13 +168,13 @@ std::array<double, n> accelerationWithFriction(const std::array<double, n*(n + 1
   std::array<double, n> a = solve(state.share);
   // A level that does not depend on the shares takes one round. Where it does each round takes the
   // error down by about the difference: a share of 1 - 1e-9 for 1 would hold what slides.
-  constexpr int kMostRounds = 6;
+  constexpr int kMaxRounds = 6;
   constexpr double kDifference = 1.0e-3;
-  for (int round = 0; state.holdsAny() && round < kMostRounds; ++round) {
+  for (int round = 0; state.holdsAny() && round < kMaxRounds; ++round) {
     // Newton's method; the slopes are differences.
     ContactNumbers residual{};
-    std::array<ContactNumbers, kMostContacts> slope{};  // [contact][by the share of]
-    for (std::size_t k = 0; k < kMostContacts; ++k) {
+    std::array<ContactNumbers, kMaxContacts> slope{};  // [contact][by the share of]
+    for (std::size_t k = 0; k < kMaxContacts; ++k) {
       slope[k][k] = 1.0;  // of one that is not held: its share stays
       if (!state.held[k]) {
         continue;
@@ -183,7 +184,7 @@ std::array<double, n> accelerationWithFriction(const std::array<double, n*(n + 1
       const double step = other[k] > 0.0 ? -kDifference : kDifference;
       other[k] += step;
       const std::array<double, n> changed = solve(other);
-      for (std::size_t j = 0; j < kMostContacts; ++j) {
+      for (std::size_t j = 0; j < kMaxContacts; ++j) {
         if (state.held[j]) {
           slope[j][k] = (along(j, changed) - along(j, a)) / step;
         }
@@ -195,7 +196,7 @@ std::array<double, n> accelerationWithFriction(const std::array<double, n*(n + 1
     ContactNumbers change{(slope[0][1] * residual[1] - slope[1][1] * residual[0]) / determinant,
                           (slope[1][0] * residual[0] - slope[0][0] * residual[1]) / determinant};
     double largest = 0.0;
-    for (std::size_t k = 0; k < kMostContacts; ++k) {
+    for (std::size_t k = 0; k < kMaxContacts; ++k) {
       if (nothing_holds) {
         change[k] = residual[k] > 0.0 ? 2.0 : residual[k] < 0.0 ? -2.0 : 0.0;
       }
@@ -207,7 +208,7 @@ std::array<double, n> accelerationWithFriction(const std::array<double, n*(n + 1
       break;
     }
   }
-  for (std::size_t k = 0; k < kMostContacts; ++k) {  // what is left is rounding
+  for (std::size_t k = 0; k < kMaxContacts; ++k) {  // the remainder is rounding
     if (state.held[k]) {
       const std::array<double, n>& direction = contacts.at[k].direction;
       double square = 0.0;
@@ -223,9 +224,9 @@ std::array<double, n> accelerationWithFriction(const std::array<double, n*(n + 1
   return a;
 }
 
-/// What each contact is at a state. One that does not slide is held, or begins to slide to one
-/// side: of all choices the one is taken in which what is held needs no more friction than there is
-/// and what begins to slide moves against its friction. Real-time safe.
+/// The state of each contact. A contact at zero sliding velocity sticks or begins to slide to one
+/// side: of all combinations the one is chosen in which sticking contacts need no more friction
+/// than is available and contacts that begin to slide move against their friction. Real-time safe.
 template <std::size_t n, class Friction>
 DryState<n> dryState(const std::array<double, n*(n + 1) / 2>& mass,
                      const std::array<double, n>& force, const DryContacts<n>& contacts,
@@ -240,7 +241,7 @@ DryState<n> dryState(const std::array<double, n*(n + 1) / 2>& mass,
   for (const ContactNumbers& choice : kChoices) {
     DryState<n> state;
     bool possible = true;
-    for (std::size_t j = 0; j < kMostContacts; ++j) {
+    for (std::size_t j = 0; j < kMaxContacts; ++j) {
       const bool free = j < contacts.count && sliding[j] == 0.0;
       possible = possible && (free || choice[j] == 0.0);
       state.share[j] = free ? choice[j] : sliding[j];

@@ -1,5 +1,5 @@
-// A model behind one interface, for everything that is not a step: analysis, display, checking.
-// (A step never goes through here: it is composed with its model at compile time.)
+// Interface of a model for analysis, display and checking. (Steps do not use it: they are composed
+// with their model at compile time.)
 #pragma once
 
 #include <Eigen/Core>
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "mechanics/energies.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/linear_rotor.h"
 #include "mechanics/linearization.h"
-#include "mechanics/moment.h"
 #include "mechanics/reaction.h"
 #include "mechanics/sketch.h"
 
@@ -48,45 +48,46 @@ class Dynamics {
   virtual bool speedDependent() const = 0;  ///< the matrices of a linear model change with speed
   virtual double phaseMark() const = 0;     ///< [rad], on a rotor's shaft: its phase counts from it
   virtual double naturalLength() const = 0;  ///< [m], scale of the sliding coordinates
-  /// The same system without the loads that alternate and, of a rotor, without what turns with the
-  /// shaft: its equilibria are those at rest.
+  /// The same system without alternating loads and, for a rotor, without synchronous forces: its
+  /// equilibria are those at rest.
   virtual const Dynamics& atMeanLoad() const = 0;
   /// Of the loads, supports and coefficients that alternate with time [rad/s], each > 0; empty:
   /// nothing does, or it is not known how.
   virtual std::vector<double> loadFrequencies() const { return {}; }
 
   virtual Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                       const Moment<double>& at) const = 0;
-  /// The generalized force that is left without acceleration: zero in a steady motion, and with
-  /// v = 0 at an equilibrium.
-  virtual Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                          const Moment<double>& at) const = 0;
+                                       const EvaluationPoint<double>& at) const = 0;
+  /// The residual generalized force at zero acceleration: zero in a steady motion, and with v = 0
+  /// at an equilibrium.
+  virtual Eigen::VectorXd residualForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                        const EvaluationPoint<double>& at) const = 0;
   /// The forces that have no potential, Q - dD/dv.
   virtual Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                       const Moment<double>& at) const = 0;
+                                       const EvaluationPoint<double>& at) const = 0;
   virtual Eigen::MatrixXd massMatrix(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                     const Moment<double>& at) const = 0;
+                                     const EvaluationPoint<double>& at) const = 0;
   /// Generalized momenta dL/dv.
   virtual Eigen::VectorXd momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                  const Moment<double>& at) const = 0;
+                                  const EvaluationPoint<double>& at) const = 0;
   virtual Energies energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                            const Moment<double>& at) const = 0;
+                            const EvaluationPoint<double>& at) const = 0;
   virtual Linearization linearization(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                      const Eigen::VectorXd& a, const Moment<double>& at) const = 0;
+                                      const Eigen::VectorXd& a,
+                                      const EvaluationPoint<double>& at) const = 0;
 
   /// Constraint forces, at a state whose accelerations are a.
   virtual std::vector<Reaction> reactions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                           const Eigen::VectorXd& a,
-                                          const Moment<double>& at) const = 0;
+                                          const EvaluationPoint<double>& at) const = 0;
   /// Conditions under which the equations hold, at a state whose accelerations are a.
   virtual std::vector<Condition> conditions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                             const Eigen::VectorXd& a,
-                                            const Moment<double>& at) const = 0;
+                                            const EvaluationPoint<double>& at) const = 0;
   /// The contacts whose dry friction can hold, at a state under the generalized force `applied`
   /// from outside. acceleration() has held contacts hold, without that force.
   virtual std::vector<DryHold> dryHolds(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
                                         const Eigen::VectorXd& /*applied*/,
-                                        const Moment<double>& /*at*/) const {
+                                        const EvaluationPoint<double>& /*at*/) const {
     return {};
   }
   /// Why the mass matrix can become singular; "" where it cannot.
@@ -98,7 +99,7 @@ class Dynamics {
   /// one. Throws std::logic_error for any other and for one whose loads alternate by themselves.
   virtual LinearRotor linearRotor() const;
   /// Its picture; empty where there is none.
-  virtual Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const = 0;
+  virtual Sketch sketch(const Eigen::VectorXd& q, const EvaluationPoint<double>& at) const = 0;
 };
 
 }  // namespace whirl_twin

@@ -1,7 +1,7 @@
-// Elementary functions with their first two derivatives, for the dual numbers of this room.
+// Elementary functions with their first two derivatives, for the dual numbers of this module.
 //
 // A function is one row: its value g, slope g' and curvature g'' at x. Both number types use the
-// same rows, so a function added here is known to all of them.
+// same rows, so a function added here is available to both.
 #pragma once
 
 #include <cmath>
@@ -17,8 +17,8 @@ using std::atan;
 using std::sqrt;
 using std::tanh;
 
-// Of doubles only, as templates: a model in a namespace of its own that says `using namespace
-// whirl_twin` sees the C library's ::sin too, and plain functions would be ambiguous beside it.
+// Of doubles only, as templates: a model in a separate namespace with `using namespace whirl_twin`
+// sees the C library's ::sin too, and plain functions would be ambiguous beside it.
 template <class S, std::enable_if_t<std::is_same_v<S, double>, int> = 0>
 WHIRL_TWIN_INLINE S sin(S x) {
   return sineCosine(x).sine;

@@ -1,7 +1,7 @@
 // First-order forward dual number: a value and its derivatives in N directions.
 //
-// Used for the potential (derivatives by the coordinates and by time), the Rayleigh dissipation
-// (by the rates), and as the base of LagrangianDual where a linearization is wanted.
+// Used for the potential (derivatives by the coordinates and by time), the Rayleigh dissipation (by
+// the rates), and as the base of LagrangianDual where a linearization is required.
 #pragma once
 
 #include <cstddef>

@@ -14,13 +14,13 @@ void add(const LocalForce& force, const Eigen::VectorXd& q, const Eigen::VectorX
          HeldInputs& held) {
   LocalState at;
   at.place = {force.along_x.dot(q), force.along_y.dot(q)};
-  LocalPush without;
+  NodalForce without;
   const bool room = force.law->push(at, without);
   const LocalSlopes slopes_without = force.law->slopes(at);
   for (std::size_t i = 0; i < 2; ++i) {
     at.input[i] = inputs[static_cast<Index>(force.inputs[i])];
   }
-  LocalPush with;
+  NodalForce with;
   if (!room || !force.law->push(at, with)) {
     held.force.fill(kNaN);
     return;

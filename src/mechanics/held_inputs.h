@@ -1,4 +1,5 @@
-// What inputs do that are held: a force, and how it changes with them and with the place.
+// Effect of zero-order-hold inputs: their force, and its derivatives by the inputs and the
+// coordinates.
 #pragma once
 
 #include <Eigen/Core>

@@ -14,9 +14,9 @@
 #include <cstddef>
 
 #include "mechanics/energies.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/gradient.h"
 #include "mechanics/lagrangian_dual.h"
-#include "mechanics/moment.h"
 
 namespace whirl_twin {
 
@@ -28,7 +28,7 @@ struct EquationsOfMotion {
   B power{};                            ///< [W], dh/dt
 };
 
-/// What a step needs: q'' and the rate of the Jacobi integral.
+/// Quantities of a step: q'' and the rate of the Jacobi integral.
 template <std::size_t n>
 struct Derivative {
   std::array<double, n> acceleration{};
@@ -45,7 +45,7 @@ template <class Model, class B, std::size_t n>
 WHIRL_TWIN_INLINE EquationsOfMotion<B, n> equationsOfMotion(const Model& model,
                                                             const std::array<B, n>& q,
                                                             const std::array<B, n>& v,
-                                                            const Moment<double>& at) {
+                                                            const EvaluationPoint<double>& at) {
   using Kinetic = LagrangianDual<B, n>;
   std::array<Kinetic, n> q_of_t;
   std::array<Kinetic, n> v_of_t;
@@ -53,16 +53,16 @@ WHIRL_TWIN_INLINE EquationsOfMotion<B, n> equationsOfMotion(const Model& model,
     q_of_t[j] = Kinetic::coordinate(q[j], v[j], j);
     v_of_t[j] = Kinetic::velocity(v[j], j);
   });
-  const Moment<Kinetic> moment{
+  const EvaluationPoint<Kinetic> moment{
       Kinetic::known(B(at.time), B(1.0)), Kinetic::known(B(at.angle), B(at.speed)),
       Kinetic::known(B(at.speed), B(at.acceleration)), Kinetic::known(B(at.acceleration), B(0.0))};
   const Kinetic t = model.kinetic(q_of_t, v_of_t, moment);
 
-  using Potential = Gradient<B, n + 1>;  // by the coordinates, and by time where it stands alone
+  using Potential = Gradient<B, n + 1>;  // by the coordinates and by explicit time
   std::array<Potential, n> q_of_potential;
   unrolled<n>([&](auto j) WHIRL_TWIN_FLAT { q_of_potential[j] = Potential(q[j], j); });
-  Moment<Potential> moment_of_potential{Potential(B(at.time), n), Potential(at.angle),
-                                        Potential(at.speed), Potential(at.acceleration)};
+  EvaluationPoint<Potential> moment_of_potential{Potential(B(at.time), n), Potential(at.angle),
+                                                 Potential(at.speed), Potential(at.acceleration)};
   moment_of_potential.angle.slope[n] = B(at.speed);
   moment_of_potential.speed.slope[n] = B(at.acceleration);
   const Potential u = model.potential(q_of_potential, moment_of_potential);
@@ -74,11 +74,13 @@ WHIRL_TWIN_INLINE EquationsOfMotion<B, n> equationsOfMotion(const Model& model,
     q_of_dissipation[j].value = q[j];
     v_of_dissipation[j] = Dissipation(v[j], j);
   });
-  const Moment<Dissipation> moment_of_dissipation{at.time, at.angle, at.speed, at.acceleration};
+  const EvaluationPoint<Dissipation> moment_of_dissipation{at.time, at.angle, at.speed,
+                                                           at.acceleration};
   const Dissipation d =
       model.dissipation(q_of_dissipation, v_of_dissipation, moment_of_dissipation);
 
-  const Moment<B> moment_of_force{B(at.time), B(at.angle), B(at.speed), B(at.acceleration)};
+  const EvaluationPoint<B> moment_of_force{B(at.time), B(at.angle), B(at.speed),
+                                           B(at.acceleration)};
   const std::array<B, n> applied = model.force(q, v, moment_of_force);
 
   EquationsOfMotion<B, n> r;
@@ -91,12 +93,11 @@ WHIRL_TWIN_INLINE EquationsOfMotion<B, n> equationsOfMotion(const Model& model,
   return r;
 }
 
-/// The same in one copy for a model: for whatever is not the innermost of a step.
+/// The same, not inlined, one copy per model: for code outside the innermost loop of a step.
 template <class Model, std::size_t n>
-[[gnu::noinline]] EquationsOfMotion<double, n> equationsAt(const Model& model,
-                                                           const std::array<double, n>& q,
-                                                           const std::array<double, n>& v,
-                                                           const Moment<double>& at) noexcept {
+[[gnu::noinline]] EquationsOfMotion<double, n> equationsAt(
+    const Model& model, const std::array<double, n>& q, const std::array<double, n>& v,
+    const EvaluationPoint<double>& at) noexcept {
   return equationsOfMotion(model, q, v, at);
 }
 
@@ -142,7 +143,7 @@ WHIRL_TWIN_INLINE std::array<B, n> solveMass(const std::array<B, n*(n + 1) / 2>&
 template <class Model, std::size_t n>
 WHIRL_TWIN_INLINE Derivative<n> derivative(const Model& model, const std::array<double, n>& q,
                                            const std::array<double, n>& v,
-                                           const Moment<double>& at) {
+                                           const EvaluationPoint<double>& at) {
   const EquationsOfMotion<double, n> eom = equationsOfMotion(model, q, v, at);
   return {solveMass<double, n>(eom.mass, eom.force), eom.power};
 }
@@ -152,10 +153,10 @@ template <std::size_t n>
 struct ByRates {
   using Rates = Gradient<double, n>;
   std::array<Rates, n> q, v;
-  Moment<Rates> at;
+  EvaluationPoint<Rates> at;
 
   ByRates(const std::array<double, n>& q_now, const std::array<double, n>& v_now,
-          const Moment<double>& now)
+          const EvaluationPoint<double>& now)
       : at{now.time, now.angle, now.speed, now.acceleration} {
     for (std::size_t j = 0; j < n; ++j) {
       q[j].value = q_now[j];
@@ -167,7 +168,8 @@ struct ByRates {
 /// The forces that have no potential, Q - dD/dv, at a state.
 template <class Model, std::size_t n>
 std::array<double, n> appliedForce(const Model& model, const std::array<double, n>& q,
-                                   const std::array<double, n>& v, const Moment<double>& at) {
+                                   const std::array<double, n>& v,
+                                   const EvaluationPoint<double>& at) {
   const ByRates<n> by_rates(q, v, at);
   const auto d = model.dissipation(by_rates.q, by_rates.v, by_rates.at);
   std::array<double, n> applied = model.force(q, v, at);
@@ -180,7 +182,7 @@ std::array<double, n> appliedForce(const Model& model, const std::array<double, 
 /// Generalized momenta dL/dv at a state.
 template <class Model, std::size_t n>
 std::array<double, n> momenta(const Model& model, const std::array<double, n>& q,
-                              const std::array<double, n>& v, const Moment<double>& at) {
+                              const std::array<double, n>& v, const EvaluationPoint<double>& at) {
   const ByRates<n> by_rates(q, v, at);
   const auto t = model.kinetic(by_rates.q, by_rates.v, by_rates.at);
   std::array<double, n> momenta;
@@ -191,7 +193,7 @@ std::array<double, n> momenta(const Model& model, const std::array<double, n>& q
 /// Energies and powers at a state.
 template <class Model, std::size_t n>
 Energies energies(const Model& model, const std::array<double, n>& q,
-                  const std::array<double, n>& v, const Moment<double>& at) {
+                  const std::array<double, n>& v, const EvaluationPoint<double>& at) {
   Energies e;
   const ByRates<n> by_rates(q, v, at);
   const auto t = model.kinetic(by_rates.q, by_rates.v, by_rates.at);
@@ -211,7 +213,7 @@ Energies energies(const Model& model, const std::array<double, n>& q,
 template <class Model, std::size_t n>
 FixedLinearization<n> linearization(const Model& model, const std::array<double, n>& q,
                                     const std::array<double, n>& v, const std::array<double, n>& a,
-                                    const Moment<double>& at) {
+                                    const EvaluationPoint<double>& at) {
   // By the coordinates, then by the rates. Of many coordinates that is one copy of the equations
   // that is passed twice: with all directions it would be what its model takes longest to compile.
   constexpr std::size_t kDirections = n < 3 ? 2 * n : n;

@@ -1,5 +1,5 @@
-// A model that is given by its energies, behind the interface of dynamics.h: its equations are
-// derived (lagrangian.h), and members that it may have or not are asked for.
+// Adapter from a model given by its energies to the interface of dynamics.h: its equations are
+// derived (lagrangian.h), and its optional members are detected.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@
 
 namespace whirl_twin {
 
-/// Does the model have a member function or not: absent means the plain answer.
+/// Detection of optional member functions of a model: if absent, the default applies.
 template <class Model, class = void>
 struct RotorTraits {
   static constexpr bool kRotor = false;
@@ -29,7 +29,8 @@ struct RotorTraits<Model, std::void_t<decltype(&Model::phaseMark)>> {
   static double phaseMark(const Model& m) { return m.phaseMark(); }
 };
 
-/// The name that phaseMark() had; a model that still says it would pass for no rotor.
+/// The former name of phaseMark(); a model that still defines it would not be recognized as a
+/// rotor.
 template <class Model, class = void>
 struct HasUnbalanceAngle : std::false_type {};
 template <class Model>
@@ -161,7 +162,7 @@ class LagrangianDynamics final : public Dynamics {
   }
 
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override {
+                               const EvaluationPoint<double>& at) const override {
     const auto eom = equationsAt(model_, array(q), array(v), at);
     if constexpr (HasDryContacts<Model>::value) {
       DryState<n> state;
@@ -169,16 +170,16 @@ class LagrangianDynamics final : public Dynamics {
     }
     return vector(solveMass<double, n>(eom.mass, eom.force));
   }
-  Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                  const Moment<double>& at) const override {
+  Eigen::VectorXd residualForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                const EvaluationPoint<double>& at) const override {
     return vector(equationsAt(model_, array(q), array(v), at).force);
   }
   Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override {
+                               const EvaluationPoint<double>& at) const override {
     return vector(whirl_twin::appliedForce(model_, array(q), array(v), at));
   }
   Eigen::MatrixXd massMatrix(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                             const Moment<double>& at) const override {
+                             const EvaluationPoint<double>& at) const override {
     const auto packed = equationsAt(model_, array(q), array(v), at).mass;
     Eigen::MatrixXd mass(dof(), dof());
     for (int i = 0; i < dof(); ++i) {
@@ -189,33 +190,34 @@ class LagrangianDynamics final : public Dynamics {
     return mass;
   }
   Eigen::VectorXd momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                          const Moment<double>& at) const override {
+                          const EvaluationPoint<double>& at) const override {
     return vector(whirl_twin::momenta(model_, array(q), array(v), at));
   }
   Energies energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                    const Moment<double>& at) const override {
+                    const EvaluationPoint<double>& at) const override {
     return whirl_twin::energies(model_, array(q), array(v), at);
   }
   Linearization linearization(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                              const Eigen::VectorXd& a, const Moment<double>& at) const override {
+                              const Eigen::VectorXd& a,
+                              const EvaluationPoint<double>& at) const override {
     const FixedLinearization<n> l =
         whirl_twin::linearization(model_, array(q), array(v), array(a), at);
     return {l.mass, l.damping, l.gyroscopic, l.stiffness, l.circulatory};
   }
-  std::vector<Reaction> reactions([[maybe_unused]] const Eigen::VectorXd& q,
-                                  [[maybe_unused]] const Eigen::VectorXd& v,
-                                  [[maybe_unused]] const Eigen::VectorXd& a,
-                                  [[maybe_unused]] const Moment<double>& at) const override {
+  std::vector<Reaction> reactions(
+      [[maybe_unused]] const Eigen::VectorXd& q, [[maybe_unused]] const Eigen::VectorXd& v,
+      [[maybe_unused]] const Eigen::VectorXd& a,
+      [[maybe_unused]] const EvaluationPoint<double>& at) const override {
     if constexpr (HasReactions<Model>::value) {
       return model_.reactions(array(q), array(v), array(a), at);
     } else {
       return {};
     }
   }
-  std::vector<Condition> conditions([[maybe_unused]] const Eigen::VectorXd& q,
-                                    [[maybe_unused]] const Eigen::VectorXd& v,
-                                    [[maybe_unused]] const Eigen::VectorXd& a,
-                                    [[maybe_unused]] const Moment<double>& at) const override {
+  std::vector<Condition> conditions(
+      [[maybe_unused]] const Eigen::VectorXd& q, [[maybe_unused]] const Eigen::VectorXd& v,
+      [[maybe_unused]] const Eigen::VectorXd& a,
+      [[maybe_unused]] const EvaluationPoint<double>& at) const override {
     if constexpr (HasConditions<Model>::value) {
       return model_.conditions(array(q), array(v), array(a), at);
     } else {
@@ -225,7 +227,7 @@ class LagrangianDynamics final : public Dynamics {
   std::vector<DryHold> dryHolds([[maybe_unused]] const Eigen::VectorXd& q,
                                 [[maybe_unused]] const Eigen::VectorXd& v,
                                 [[maybe_unused]] const Eigen::VectorXd& applied,
-                                [[maybe_unused]] const Moment<double>& at) const override {
+                                [[maybe_unused]] const EvaluationPoint<double>& at) const override {
     std::vector<DryHold> holds;
     if constexpr (HasDryContacts<Model>::value) {
       auto eom = equationsAt(model_, array(q), array(v), at);
@@ -252,7 +254,7 @@ class LagrangianDynamics final : public Dynamics {
     }
   }
   Sketch sketch([[maybe_unused]] const Eigen::VectorXd& q,
-                [[maybe_unused]] const Moment<double>& at) const override {
+                [[maybe_unused]] const EvaluationPoint<double>& at) const override {
     if constexpr (HasSketch<Model>::value) {
       return model_.sketch(array(q), at);
     } else {

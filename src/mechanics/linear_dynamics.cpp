@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "algebra/dense.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -31,7 +31,7 @@ void requireSizes(const LinearModel& model) {
   }
 }
 
-/// Rigid-body modes are left out: they have no static deflection.
+/// Rigid-body modes are excluded: they have no static deflection.
 double largestDeflection(const LinearModel& model) {
   const Eigen::MatrixXd stiffness = model.stiffness + model.circulatory;
   double largest = 0.0;
@@ -47,7 +47,7 @@ LinearDynamics::LinearDynamics(LinearModel model) : model_(std::move(model)) {
   requireSizes(model_);
   mass_ = Cholesky(model_.mass);
   if (!mass_.succeeded()) {
-    throw Refusal("linear system: the mass matrix is not positive definite");
+    throw InputError("linear system: the mass matrix is not positive definite");
   }
   natural_length_ = largestDeflection(model_);
   LinearModel mean = model_;
@@ -71,28 +71,28 @@ Eigen::VectorXd LinearDynamics::force(double time) const {
 }
 
 Eigen::VectorXd LinearDynamics::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                             const Moment<double>& at) const {
-  return mass_.solve(unbalancedForce(q, v, at));
+                                             const EvaluationPoint<double>& at) const {
+  return mass_.solve(residualForce(q, v, at));
 }
 
-Eigen::VectorXd LinearDynamics::unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                                const Moment<double>& at) const {
+Eigen::VectorXd LinearDynamics::residualForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                              const EvaluationPoint<double>& at) const {
   return appliedForce(q, v, at) - model_.gyroscopic * v - model_.stiffness * q;
 }
 
 Eigen::VectorXd LinearDynamics::appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                             const Moment<double>& at) const {
+                                             const EvaluationPoint<double>& at) const {
   return force(at.time) - model_.damping * v - model_.circulatory * q;
 }
 
 Eigen::VectorXd LinearDynamics::momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                        const Moment<double>&) const {
+                                        const EvaluationPoint<double>&) const {
   // The Lagrangian of the gyroscopic terms is q'^T G q / 2.
   return model_.mass * v + 0.5 * (model_.gyroscopic * q);
 }
 
 Energies LinearDynamics::energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                  const Moment<double>& at) const {
+                                  const EvaluationPoint<double>& at) const {
   Energies e;
   e.kinetic = 0.5 * v.dot(model_.mass * v);
   e.potential = 0.5 * q.dot(model_.stiffness * q);
@@ -103,7 +103,8 @@ Energies LinearDynamics::energies(const Eigen::VectorXd& q, const Eigen::VectorX
 }
 
 Linearization LinearDynamics::linearization(const Eigen::VectorXd&, const Eigen::VectorXd&,
-                                            const Eigen::VectorXd&, const Moment<double>&) const {
+                                            const Eigen::VectorXd&,
+                                            const EvaluationPoint<double>&) const {
   return {model_.mass, model_.damping, model_.gyroscopic, model_.stiffness, model_.circulatory};
 }
 

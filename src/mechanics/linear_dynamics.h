@@ -6,7 +6,7 @@
 // C, K symmetric (damping, stiffness), G, N skew (gyroscopic, circulatory). With T = q'^T M q' / 2,
 // V = q^T K q / 2, D = q'^T C q' / 2 the Jacobi integral is h = T + V, and
 //   dh/dt = -q'^T C q' + q'^T (f - N q).
-// The matrices are used as they are: duals of n coordinates would cost n^4.
+// The matrices are used directly: dual numbers of n coordinates would cost n^4.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,7 +40,7 @@ struct LinearModel {
 
 class LinearDynamics final : public Dynamics {
  public:
-  /// Throws Refusal for matrices or forces of the wrong size and for a mass matrix
+  /// Throws InputError for matrices or forces of the wrong size and for a mass matrix
   /// that is not positive definite.
   explicit LinearDynamics(LinearModel model);
 
@@ -62,31 +62,34 @@ class LinearDynamics final : public Dynamics {
   const Dynamics& atMeanLoad() const override { return at_mean_load_ ? *at_mean_load_ : *this; }
 
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override;
-  Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                  const Moment<double>& at) const override;
+                               const EvaluationPoint<double>& at) const override;
+  Eigen::VectorXd residualForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                const EvaluationPoint<double>& at) const override;
   Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override;
+                               const EvaluationPoint<double>& at) const override;
   Eigen::MatrixXd massMatrix(const Eigen::VectorXd&, const Eigen::VectorXd&,
-                             const Moment<double>&) const override {
+                             const EvaluationPoint<double>&) const override {
     return model_.mass;
   }
   Eigen::VectorXd momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                          const Moment<double>& at) const override;
+                          const EvaluationPoint<double>& at) const override;
   Energies energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                    const Moment<double>& at) const override;
+                    const EvaluationPoint<double>& at) const override;
   Linearization linearization(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                              const Eigen::VectorXd& a, const Moment<double>& at) const override;
+                              const Eigen::VectorXd& a,
+                              const EvaluationPoint<double>& at) const override;
   std::vector<Reaction> reactions(const Eigen::VectorXd&, const Eigen::VectorXd&,
-                                  const Eigen::VectorXd&, const Moment<double>&) const override {
+                                  const Eigen::VectorXd&,
+                                  const EvaluationPoint<double>&) const override {
     return {};
   }
   std::vector<Condition> conditions(const Eigen::VectorXd&, const Eigen::VectorXd&,
-                                    const Eigen::VectorXd&, const Moment<double>&) const override {
+                                    const Eigen::VectorXd&,
+                                    const EvaluationPoint<double>&) const override {
     return {};
   }
   std::string singularMass() const override { return ""; }
-  Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const override {
+  Sketch sketch(const Eigen::VectorXd& q, const EvaluationPoint<double>& at) const override {
     return model_.sketch ? model_.sketch(q, at.time) : Sketch{};
   }
 

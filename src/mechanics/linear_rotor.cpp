@@ -13,7 +13,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Amplitude of what turns with the shaft, and what does not, at rest in q = 0.
+/// Amplitude of the synchronous force, and the constant force, at rest in q = 0.
 struct ForceAtRest {
   Eigen::VectorXcd turning;
   Eigen::VectorXd steady;
@@ -22,7 +22,7 @@ struct ForceAtRest {
 ForceAtRest forceAtRest(const Dynamics& dynamics, double speed) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(dynamics.dof());
   const auto at = [&](double angle) {
-    return dynamics.unbalancedForce(zero, zero, {0.0, angle, speed, 0.0});
+    return dynamics.residualForce(zero, zero, {0.0, angle, speed, 0.0});
   };
   const Eigen::VectorXd ahead = at(0.0);
   const Eigen::VectorXd behind = at(kPi);

@@ -24,12 +24,12 @@ struct Station {
   std::string name;
   double position = 0.0;  ///< [m], along the shaft
   Eigen::VectorXd along_x, along_y;
-  /// It has a whirl of its own beside that of the first station.
+  /// Its whirl is published besides that of the first station.
   bool published = false;
 };
 
-/// A force that turns with the shaft, Re[amplitude (w^2 - i a) e^(i harmonic theta)]; without the
-/// factor (w^2 - i a) where it is not inertial.
+/// A synchronous force, Re[amplitude (w^2 - i a) e^(i harmonic theta)]; without the factor (w^2 - i
+/// a) where it is not inertial.
 struct ShaftForce {
   Eigen::VectorXcd amplitude;  ///< [kg m] or [kg m^2] inertial, else [N] or [N m]
   int harmonic = 1;

@@ -8,7 +8,7 @@
 
 #include "algebra/dense.h"
 #include "mechanics/rotors/rotor_assembly.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -50,7 +50,7 @@ LinearRotorDynamics::LinearRotorDynamics(RotorDescription description, LinearRot
   mass_ = rotor_.matrices(0.0).mass;
   mass_factor_ = Cholesky(mass_);
   if (!mass_factor_.succeeded()) {
-    throw Refusal("rotor: the mass matrix is not positive definite");
+    throw InputError("rotor: the mass matrix is not positive definite");
   }
   if (!rotor_.forces.empty()) {
     LinearRotor balanced = rotor_;
@@ -61,13 +61,13 @@ LinearRotorDynamics::LinearRotorDynamics(RotorDescription description, LinearRot
 
 Eigen::VectorXd LinearRotorDynamics::acceleration(const Eigen::VectorXd& q,
                                                   const Eigen::VectorXd& v,
-                                                  const Moment<double>& at) const {
-  return mass_factor_.solve(unbalancedForce(q, v, at));
+                                                  const EvaluationPoint<double>& at) const {
+  return mass_factor_.solve(residualForce(q, v, at));
 }
 
-Eigen::VectorXd LinearRotorDynamics::unbalancedForce(const Eigen::VectorXd& q,
-                                                     const Eigen::VectorXd& v,
-                                                     const Moment<double>& at) const {
+Eigen::VectorXd LinearRotorDynamics::residualForce(const Eigen::VectorXd& q,
+                                                   const Eigen::VectorXd& v,
+                                                   const EvaluationPoint<double>& at) const {
   const Linearization l = rotor_.matrices(at.speed);
   return rotor_.shaftForce(at.angle, at.speed, at.acceleration) + rotor_.load -
          (l.damping + l.gyroscopic) * v - (l.stiffness + l.circulatory) * q;
@@ -75,19 +75,19 @@ Eigen::VectorXd LinearRotorDynamics::unbalancedForce(const Eigen::VectorXd& q,
 
 Eigen::VectorXd LinearRotorDynamics::appliedForce(const Eigen::VectorXd& q,
                                                   const Eigen::VectorXd& v,
-                                                  const Moment<double>& at) const {
+                                                  const EvaluationPoint<double>& at) const {
   const Linearization l = rotor_.matrices(at.speed);
   return rotor_.shaftForce(at.angle, at.speed, at.acceleration) - l.damping * v - l.circulatory * q;
 }
 
 Eigen::VectorXd LinearRotorDynamics::momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                             const Moment<double>& at) const {
+                                             const EvaluationPoint<double>& at) const {
   // The Lagrangian of the gyroscopic terms is q'^T G q / 2.
   return mass_ * v + 0.5 * (rotor_.matrices(at.speed).gyroscopic * q);
 }
 
 Energies LinearRotorDynamics::energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                       const Moment<double>& at) const {
+                                       const EvaluationPoint<double>& at) const {
   const Linearization l = rotor_.matrices(at.speed);
   Energies e;
   e.kinetic = 0.5 * v.dot(mass_ * v);
@@ -106,14 +106,14 @@ Energies LinearRotorDynamics::energies(const Eigen::VectorXd& q, const Eigen::Ve
 
 Linearization LinearRotorDynamics::linearization(const Eigen::VectorXd&, const Eigen::VectorXd&,
                                                  const Eigen::VectorXd&,
-                                                 const Moment<double>& at) const {
+                                                 const EvaluationPoint<double>& at) const {
   return rotor_.matrices(at.speed);
 }
 
 std::vector<Condition> LinearRotorDynamics::conditions(const Eigen::VectorXd&,
                                                        const Eigen::VectorXd&,
                                                        const Eigen::VectorXd&,
-                                                       const Moment<double>& at) const {
+                                                       const EvaluationPoint<double>& at) const {
   const DataSpeeds data = dataSpeeds(rotor_);
   if (std::isinf(data.to)) {
     return {};  // of films alone, too: every shaft starts and ends slower than they carry it

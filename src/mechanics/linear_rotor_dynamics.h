@@ -15,7 +15,7 @@
 
 namespace whirl_twin {
 
-/// What a linear rotor is beside its matrices.
+/// Properties of a linear rotor besides its matrices.
 struct RotorDescription {
   std::string model;
   std::vector<CoordinateInfo> coordinates;
@@ -29,7 +29,7 @@ struct RotorDescription {
 
 class LinearRotorDynamics final : public Dynamics {
  public:
-  /// Throws Refusal for matrices of the wrong size and for a mass matrix that is not
+  /// Throws InputError for matrices of the wrong size and for a mass matrix that is not
   /// positive definite.
   LinearRotorDynamics(RotorDescription description, LinearRotor rotor);
 
@@ -48,31 +48,33 @@ class LinearRotorDynamics final : public Dynamics {
   LinearRotor linearRotor() const override { return rotor_; }
 
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override;
-  Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                  const Moment<double>& at) const override;
+                               const EvaluationPoint<double>& at) const override;
+  Eigen::VectorXd residualForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                const EvaluationPoint<double>& at) const override;
   Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override;
+                               const EvaluationPoint<double>& at) const override;
   Eigen::MatrixXd massMatrix(const Eigen::VectorXd&, const Eigen::VectorXd&,
-                             const Moment<double>&) const override {
+                             const EvaluationPoint<double>&) const override {
     return mass_;
   }
   Eigen::VectorXd momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                          const Moment<double>& at) const override;
+                          const EvaluationPoint<double>& at) const override;
   Energies energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                    const Moment<double>& at) const override;
+                    const EvaluationPoint<double>& at) const override;
   Linearization linearization(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                              const Eigen::VectorXd& a, const Moment<double>& at) const override;
+                              const Eigen::VectorXd& a,
+                              const EvaluationPoint<double>& at) const override;
   std::vector<Reaction> reactions(const Eigen::VectorXd&, const Eigen::VectorXd&,
-                                  const Eigen::VectorXd&, const Moment<double>&) const override {
+                                  const Eigen::VectorXd&,
+                                  const EvaluationPoint<double>&) const override {
     return {};
   }
   /// That tables of its bearings and pedestals cover the speed.
   std::vector<Condition> conditions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                     const Eigen::VectorXd& a,
-                                    const Moment<double>& at) const override;
+                                    const EvaluationPoint<double>& at) const override;
   std::string singularMass() const override { return ""; }
-  Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const override {
+  Sketch sketch(const Eigen::VectorXd& q, const EvaluationPoint<double>& at) const override {
     return description_.sketch ? description_.sketch(q, at.angle) : Sketch{};
   }
 
@@ -81,7 +83,7 @@ class LinearRotorDynamics final : public Dynamics {
   LinearRotor rotor_;
   Eigen::MatrixXd mass_;
   Cholesky mass_factor_;
-  std::unique_ptr<const LinearRotorDynamics> balanced_;  // none: nothing turns with the shaft
+  std::unique_ptr<const LinearRotorDynamics> balanced_;  // none: no synchronous force
 };
 
 }  // namespace whirl_twin

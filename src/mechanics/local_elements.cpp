@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kWithinRoom = 0.1;  // a whirl that is large
 
-/// Where a rotor can be, and how far it moves, by what stands there.
+/// Remaining clearance at an element (roomOf) and the length scale of its motion (lengthOf).
 double roomOf(const CubicSpring&, const Eigen::Vector2d&) {
   return kInfinity;
 }
@@ -40,11 +40,11 @@ double momentOf(const Rub& rub, const PushedMotion<double>& at) {
 }
 
 template <class Element>
-class ElementLaw final : public LocalLaw {
+class ElementLaw final : public NodalForceLaw {
  public:
   explicit ElementLaw(const Element& element) : element_(element) {}
 
-  bool push(const LocalState& at, LocalPush& out) const noexcept override {
+  bool push(const LocalState& at, NodalForce& out) const noexcept override {
     if (!(roomOf(element_, {at.place[0], at.place[1]}) > 0.0)) {
       return false;
     }
@@ -82,15 +82,15 @@ class ElementLaw final : public LocalLaw {
 
 }  // namespace
 
-std::shared_ptr<const LocalLaw> localLaw(const CubicSpring& spring) {
+std::shared_ptr<const NodalForceLaw> localLaw(const CubicSpring& spring) {
   return std::make_shared<ElementLaw<CubicSpring>>(spring);
 }
 
-std::shared_ptr<const LocalLaw> localLaw(const Rub& rub) {
+std::shared_ptr<const NodalForceLaw> localLaw(const Rub& rub) {
   return std::make_shared<ElementLaw<Rub>>(rub);
 }
 
-std::shared_ptr<const LocalLaw> localLaw(const OilFilm& film) {
+std::shared_ptr<const NodalForceLaw> localLaw(const OilFilm& film) {
   return std::make_shared<ElementLaw<OilFilm>>(film);
 }
 

@@ -1,5 +1,5 @@
-// What stands beside a shaft and pushes on it by a law of its own (local_force.h), each a template
-// over the number type: the force once, its slopes by dual numbers.
+// Local nonlinear elements at a shaft (local_force.h), each a template over the number type: the
+// force is written once, its derivatives come from dual numbers.
 //
 //   cubic spring     F = -k |r|^2 r
 //   rub, gap         where |r| > clearance: N = k (|r| - clearance) + d |r|', along -r, and
@@ -7,12 +7,12 @@
 //                    mu k (|r| - clearance) u / sqrt(u^2 + kSlip^2) against u = v_tangential + w R,
 //                    the sliding of the surface (as rotors/nonlinear_jeffcott_rotor.h)
 //   journal bearing  Ocvirk's film (rotors/short_journal_bearing.h), wherever the journal is
-//   squeeze film     the same film around what does not turn: a damper
+//   squeeze film     the same film around a ring that does not rotate: a damper
 //
 // Of these only friction acts on the shaft's spin: a film's drag there is the motor's.
 //
-// Of a film the damping in its middle, pi mu R L^3 / (2 c^3), is the rotor's own: undamped modes
-// that turn many times within a step would not feel it otherwise.
+// The damping of a film in its centre, pi mu R L^3 / (2 c^3), is part of the linear rotor:
+// otherwise undamped modes with many periods within a step would not be damped by it.
 #pragma once
 
 #include <cmath>
@@ -78,7 +78,7 @@ struct Rub {
   }
 };
 
-/// Of a journal that turns with the shaft, or of a damper's ring that does not turn.
+/// Film of a journal that rotates with the shaft, or of a damper's ring that does not rotate.
 struct OilFilm {
   ShortJournalBearing bearing;
   bool turns = true;
@@ -101,9 +101,9 @@ struct OilFilm {
   static constexpr double kQuarterTurn = 1.57079632679489661923;
 };
 
-std::shared_ptr<const LocalLaw> localLaw(const CubicSpring& spring);
-std::shared_ptr<const LocalLaw> localLaw(const Rub& rub);
+std::shared_ptr<const NodalForceLaw> localLaw(const CubicSpring& spring);
+std::shared_ptr<const NodalForceLaw> localLaw(const Rub& rub);
 /// It has no place for a rotor beyond its clearance.
-std::shared_ptr<const LocalLaw> localLaw(const OilFilm& film);
+std::shared_ptr<const NodalForceLaw> localLaw(const OilFilm& film);
 
 }  // namespace whirl_twin

@@ -1,9 +1,8 @@
-// What pushes a rotor at one place along its shaft, and is not linear in the motion there: a
-// magnetic bearing near its poles, a film of oil, a stator that it rubs on.
+// Nonlinear nodal force on a rotor: a magnetic bearing near its poles, an oil film, a stator rub.
 //
-// What of such a force is among the rotor's own matrices and the directions of its inputs is the
-// rotor's; a law gives the rest, F(x, y, x', y', w, u). A rotor stays one linear system with a few
-// forces (see locally_forced_rotor.h), whatever the number of its coordinates.
+// The linear part of such a force is in the rotor's matrices and input directions; a force law
+// gives the remainder, F(x, y, x', y', w, u). The rotor is one linear system with a few forces (see
+// locally_forced_rotor.h), for any number of coordinates.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,32 +22,32 @@ struct LocalState {
   double speed = 0.0;             ///< [rad/s], of the shaft
 };
 
-struct LocalPush {
+struct NodalForce {
   std::array<double, 2> force{};  ///< [N], along x and y
-  double size = 0.0;              ///< [N], of what it is the difference of: that is what rounds
+  double size = 0.0;              ///< [N], size of the terms of F, for its rounding error
 };
 
-/// How F changes.
+/// Derivatives of F.
 struct LocalSlopes {
   Eigen::Matrix2d stiffness;                           ///< -dF/d(x, y) [N/m]
   Eigen::Matrix2d damping = Eigen::Matrix2d::Zero();   ///< -dF/d(x', y') [N s/m]
   Eigen::Matrix2d by_input = Eigen::Matrix2d::Zero();  ///< dF/du
 };
 
-class LocalLaw {
+class NodalForceLaw {
  public:
-  virtual ~LocalLaw() = default;
-  /// Real-time safe. False, with `out` as it was, where there is no such place for a rotor.
-  virtual bool push(const LocalState& at, LocalPush& out) const noexcept = 0;
+  virtual ~NodalForceLaw() = default;
+  /// Real-time safe. False, with `out` unchanged, where the position is outside the clearance.
+  virtual bool push(const LocalState& at, NodalForce& out) const noexcept = 0;
   /// Real-time safe.
   virtual LocalSlopes slopes(const LocalState& at) const noexcept = 0;
   /// [N m], on the shaft's spin, where a motor turns it. Real-time safe.
   virtual double moment(const LocalState& /*at*/) const noexcept { return 0.0; }
-  /// [m], how far a place is from where there is none; infinite where there is a place everywhere.
+  /// [m], distance of a position from the limit of the clearance; infinite without a limit.
   virtual double room(const Eigen::Vector2d& /*place*/) const noexcept {
     return std::numeric_limits<double>::infinity();
   }
-  /// [m], how far a rotor moves where this decides how far.
+  /// [m], length scale of a rotor's motion where this force determines it.
   virtual double length() const { return 0.0; }
 };
 
@@ -58,7 +57,7 @@ struct LocalForce {
   std::string name;                   ///< "magnet_1"
   Eigen::VectorXd along_x, along_y;   ///< x = along_x . q, y = along_y . q
   std::array<std::size_t, 2> inputs;  ///< of Dynamics::inputs(), x and y, or kNoInput
-  std::shared_ptr<const LocalLaw> law;
+  std::shared_ptr<const NodalForceLaw> law;
 };
 
 /// Of the place of a force, in a motion q, v at a speed [rad/s]; without inputs.

@@ -55,7 +55,7 @@ Eigen::VectorXd LocallyForcedRotor::localForce(const Eigen::VectorXd& q, const E
                                                double speed) const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(q.size());
   for (const LocalForce& force : forces_) {
-    LocalPush push;
+    NodalForce push;
     if (!force.law->push(stateOf(force, q, v, speed), push)) {
       push.force.fill(kNaN);
     }
@@ -65,23 +65,23 @@ Eigen::VectorXd LocallyForcedRotor::localForce(const Eigen::VectorXd& q, const E
 }
 
 Eigen::VectorXd LocallyForcedRotor::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                                 const Moment<double>& at) const {
-  return mass_.solve(unbalancedForce(q, v, at));
+                                                 const EvaluationPoint<double>& at) const {
+  return mass_.solve(residualForce(q, v, at));
 }
 
-Eigen::VectorXd LocallyForcedRotor::unbalancedForce(const Eigen::VectorXd& q,
-                                                    const Eigen::VectorXd& v,
-                                                    const Moment<double>& at) const {
-  return linear_->unbalancedForce(q, v, at) + localForce(q, v, at.speed);
+Eigen::VectorXd LocallyForcedRotor::residualForce(const Eigen::VectorXd& q,
+                                                  const Eigen::VectorXd& v,
+                                                  const EvaluationPoint<double>& at) const {
+  return linear_->residualForce(q, v, at) + localForce(q, v, at.speed);
 }
 
 Eigen::VectorXd LocallyForcedRotor::appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                                 const Moment<double>& at) const {
+                                                 const EvaluationPoint<double>& at) const {
   return linear_->appliedForce(q, v, at) + localForce(q, v, at.speed);
 }
 
 Energies LocallyForcedRotor::energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                      const Moment<double>& at) const {
+                                      const EvaluationPoint<double>& at) const {
   Energies e = linear_->energies(q, v, at);
   e.input_power += v.dot(localForce(q, v, at.speed));
   return e;
@@ -89,7 +89,7 @@ Energies LocallyForcedRotor::energies(const Eigen::VectorXd& q, const Eigen::Vec
 
 Linearization LocallyForcedRotor::linearization(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                                 const Eigen::VectorXd& a,
-                                                const Moment<double>& at) const {
+                                                const EvaluationPoint<double>& at) const {
   Linearization l = linear_->linearization(q, v, a, at);
   for (const LocalForce& force : forces_) {
     Eigen::MatrixXd along(q.size(), 2);
@@ -108,7 +108,7 @@ Linearization LocallyForcedRotor::linearization(const Eigen::VectorXd& q, const 
 std::vector<Condition> LocallyForcedRotor::conditions(const Eigen::VectorXd& q,
                                                       const Eigen::VectorXd& v,
                                                       const Eigen::VectorXd& a,
-                                                      const Moment<double>& at) const {
+                                                      const EvaluationPoint<double>& at) const {
   std::vector<Condition> all = linear_->conditions(q, v, a, at);
   for (const LocalForce& force : forces_) {
     const double room = force.law->room(placeOf(force, q));

@@ -1,4 +1,4 @@
-// A linear rotor with forces at places along its shaft that are not linear (local_force.h),
+// A linear rotor with nonlinear nodal forces (local_force.h),
 //
 //   M q'' + (C + G) q' + (K + N) q = f + sum of along_x F_x + along_y F_y.
 #pragma once
@@ -31,40 +31,41 @@ class LocallyForcedRotor final : public Dynamics {
   double naturalLength() const override { return natural_length_; }
   const Dynamics& atMeanLoad() const override { return balanced_ ? *balanced_ : *this; }
   std::vector<Station> stations() const override { return linear_->stations(); }
-  /// Without what is not linear.
+  /// Without the nonlinear forces.
   LinearRotor linearRotor() const override { return linear_->linearRotor(); }
 
   // Where a law has no place for the rotor its forces are no numbers.
 
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override;
-  Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                  const Moment<double>& at) const override;
+                               const EvaluationPoint<double>& at) const override;
+  Eigen::VectorXd residualForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                const EvaluationPoint<double>& at) const override;
   Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override;
+                               const EvaluationPoint<double>& at) const override;
   Eigen::MatrixXd massMatrix(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                             const Moment<double>& at) const override {
+                             const EvaluationPoint<double>& at) const override {
     return linear_->massMatrix(q, v, at);
   }
   Eigen::VectorXd momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                          const Moment<double>& at) const override {
+                          const EvaluationPoint<double>& at) const override {
     return linear_->momenta(q, v, at);
   }
   Energies energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                    const Moment<double>& at) const override;
+                    const EvaluationPoint<double>& at) const override;
   Linearization linearization(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                              const Eigen::VectorXd& a, const Moment<double>& at) const override;
+                              const Eigen::VectorXd& a,
+                              const EvaluationPoint<double>& at) const override;
   std::vector<Reaction> reactions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                   const Eigen::VectorXd& a,
-                                  const Moment<double>& at) const override {
+                                  const EvaluationPoint<double>& at) const override {
     return linear_->reactions(q, v, a, at);
   }
-  /// That there is room at each force.
+  /// The condition of clearance at each force.
   std::vector<Condition> conditions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                     const Eigen::VectorXd& a,
-                                    const Moment<double>& at) const override;
+                                    const EvaluationPoint<double>& at) const override;
   std::string singularMass() const override { return linear_->singularMass(); }
-  Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const override {
+  Sketch sketch(const Eigen::VectorXd& q, const EvaluationPoint<double>& at) const override {
     return linear_->sketch(q, at);
   }
 
@@ -76,7 +77,7 @@ class LocallyForcedRotor final : public Dynamics {
   std::vector<LocalForce> forces_;
   double natural_length_;
   Cholesky mass_;
-  std::unique_ptr<const LocallyForcedRotor> balanced_;  // none: nothing turns with the shaft
+  std::unique_ptr<const LocallyForcedRotor> balanced_;  // none: no synchronous force
 };
 
 }  // namespace whirl_twin

@@ -31,7 +31,7 @@ MagneticBearing::Force MagneticBearing::axis(double current, double place) const
           ahead.by_gap + behind.by_gap, ahead.force + behind.force};
 }
 
-bool MagneticBearing::push(const LocalState& at, LocalPush& out) const noexcept {
+bool MagneticBearing::push(const LocalState& at, NodalForce& out) const noexcept {
   if (!(std::fabs(at.place[0]) < gap_ && std::fabs(at.place[1]) < gap_)) {
     return false;
   }

@@ -5,15 +5,15 @@
 //   f = k ((i0 + i) / (s0 - x))^2 - k ((i0 - i) / (s0 + x))^2
 //     = ki i + ks x + ...,   ki = 4 k i0 / s0^2,   ks = 4 k i0^2 / s0^3 = ki i0 / s0
 //
-// A pole's current is never negative: beyond |i| = i0 one of them is off. What a pole pulls with is
-// no more than its iron carries flux for.
+// A pole's current is never negative: beyond |i| = i0 one of them is off. The force of a pole is
+// limited by the saturation of its iron.
 #pragma once
 
 #include "mechanics/local_force.h"
 
 namespace whirl_twin {
 
-class MagneticBearing final : public LocalLaw {
+class MagneticBearing final : public NodalForceLaw {
  public:
   /// Of an axis.
   struct Force {
@@ -33,7 +33,7 @@ class MagneticBearing final : public LocalLaw {
   /// f, with the linear part, for a current [A] and |place| < gap [m].
   Force axis(double current, double place) const noexcept;
   /// f less its linear part.
-  bool push(const LocalState& at, LocalPush& out) const noexcept override;
+  bool push(const LocalState& at, NodalForce& out) const noexcept override;
 
   LocalSlopes slopes(const LocalState& at) const noexcept override;
   double room(const Eigen::Vector2d& place) const noexcept override;

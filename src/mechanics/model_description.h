@@ -1,4 +1,4 @@
-// What a model says of itself: its coordinates, inputs and parameters, with units and ranges. Scene
+// Description of a model: its coordinates, inputs and parameters, with units and ranges. Scene
 // files are checked against it and `twin models` prints it.
 #pragma once
 
@@ -27,7 +27,7 @@ struct Input {
 
 enum class Range { kPositive, kNotNegative, kCount, kAny };  // kCount: 1, 2, 3 ...
 
-/// A parameter of a model, bound to the member it fills.
+/// A parameter of a model, bound to the data member that it sets.
 template <class Model>
 struct Parameter {
   const char* name;

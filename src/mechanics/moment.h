@@ -1,16 +1,11 @@
-// The moment at which energies are evaluated: the time and the motion of the shaft, if there is
-// one.
+// The earlier name of EvaluationPoint, for models in packages of others: until release 0.4.
 #pragma once
+
+#include "mechanics/evaluation_point.h"
 
 namespace whirl_twin {
 
-/// S is double, or a dual number whose rate follows the shaft.
 template <class S>
-struct Moment {
-  S time{};          ///< [s]
-  S angle{};         ///< [rad], of the shaft; whole turns may be left out
-  S speed{};         ///< [rad/s]
-  S acceleration{};  ///< [rad/s^2]
-};
+using Moment [[deprecated("use EvaluationPoint")]] = EvaluationPoint<S>;
 
 }  // namespace whirl_twin

@@ -1,5 +1,5 @@
-// What a system's equations do not show but its user must know: the forces its constraints carry,
-// and the conditions under which the equations hold at all. Evaluated beside the real-time path.
+// Constraint forces of a system, and the conditions under which its equations are valid. Not
+// evaluated in the real-time path.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct Reaction {
 struct Condition {
   std::string name;     ///< "contact", "rod_end", "sliding", "no_tipping"
   std::string unit;     ///< of the margin
-  double margin = 0.0;  ///< how much is left: [N] of normal force, [m] to the rod's end, ...
+  double margin = 0.0;  ///< remaining margin: [N] of normal force, [m] to the rod's end, ...
   std::string broken;   ///< what it means that it does not hold: "the disc lifts off its plane"
 };
 

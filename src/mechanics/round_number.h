@@ -1,4 +1,4 @@
-// Round numbers, by which pictures exaggerate.
+// Round numbers, for the scale factors of pictures.
 #pragma once
 
 #include <cmath>

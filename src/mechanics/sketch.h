@@ -1,9 +1,9 @@
-// What a system looks like: the bodies, springs and supports of one moment, for displays and
-// pictures. Not for the real-time path.
+// Picture of a system: the bodies, springs and supports at one instant, for displays and pictures.
+// Not real-time safe.
 //
 // Lengths in m. Axes: x to the right, z up, y into the picture; a motion in a vertical plane is in
-// x and z, an angle from the hanging vertical turns from -z towards +x. How many parts of each kind
-// there are stays the same during a motion; an arrow of no length is not seen.
+// x and z, an angle from the hanging vertical turns from -z towards +x. The number of parts of each
+// kind is constant during a motion; an arrow of zero length is invisible.
 #pragma once
 
 #include <cmath>
@@ -77,7 +77,7 @@ struct Sketch {
   double size = 1.0;    ///< [m], its width
   double height = 0.0;  ///< [m]; 0: as its width
   SketchPoint centre;
-  bool spatial = false;  ///< it leaves the plane x, z: no board can stand behind it
+  bool spatial = false;  ///< it leaves the plane x, z: no background board is drawn
 };
 
 /// Distance [sizes] from the plane of a plane motion to the board behind it.

@@ -8,7 +8,7 @@
 
 #include "algebra/dense.h"
 #include "mechanics/gradient.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -38,8 +38,8 @@ VectorXd whirl(const VectorXd& x) {
   return x.head(x.size() - 1);
 }
 
-Moment<double> shaftOf(const VectorXd& q, const VectorXd& v, double acceleration,
-                       const Moment<double>& at) {
+EvaluationPoint<double> shaftOf(const VectorXd& q, const VectorXd& v, double acceleration,
+                                const EvaluationPoint<double>& at) {
   return {at.time, q[q.size() - 1], v[v.size() - 1], acceleration};
 }
 
@@ -68,7 +68,7 @@ SpinningRotor::SpinningRotor(std::shared_ptr<const Dynamics> held, std::vector<L
   const VectorXd zero = VectorXd::Zero(held_->dof());
   mass_ = held_->massMatrix(zero, zero, {});
   if (!(carriedInertia(unbalance_, mass_) < coupling_.polar_inertia)) {
-    throw Refusal("with a motor the polar inertia must be greater than that of the unbalances");
+    throw InputError("with a motor the polar inertia must be greater than that of the unbalances");
   }
   const Dynamics& balanced = held_->atMeanLoad();
   if (&balanced != held_.get()) {
@@ -125,16 +125,16 @@ std::vector<Station> SpinningRotor::stations() const {
   return all;
 }
 
-VectorXd SpinningRotor::unbalancedForce(const VectorXd& q, const VectorXd& v,
-                                        const Moment<double>& at) const {
-  const Moment<double> shaft = shaftOf(q, v, 0.0, at);
+VectorXd SpinningRotor::residualForce(const VectorXd& q, const VectorXd& v,
+                                      const EvaluationPoint<double>& at) const {
+  const EvaluationPoint<double> shaft = shaftOf(q, v, 0.0, at);
   const VectorXd x = whirl(q);
   const VectorXd r = whirl(v);
-  return withSpin(held_->unbalancedForce(x, r, shaft), torque(x, r, shaft.speed));
+  return withSpin(held_->residualForce(x, r, shaft), torque(x, r, shaft.speed));
 }
 
 MatrixXd SpinningRotor::massMatrix(const VectorXd& q, const VectorXd&,
-                                   const Moment<double>&) const {
+                                   const EvaluationPoint<double>&) const {
   const Index n = held_->dof();
   MatrixXd mass(n + 1, n + 1);
   mass.topLeftCorner(n, n) = mass_;
@@ -145,13 +145,13 @@ MatrixXd SpinningRotor::massMatrix(const VectorXd& q, const VectorXd&,
 }
 
 VectorXd SpinningRotor::acceleration(const VectorXd& q, const VectorXd& v,
-                                     const Moment<double>& at) const {
-  return Cholesky(massMatrix(q, v, at)).solve(unbalancedForce(q, v, at));
+                                     const EvaluationPoint<double>& at) const {
+  return Cholesky(massMatrix(q, v, at)).solve(residualForce(q, v, at));
 }
 
 VectorXd SpinningRotor::appliedForce(const VectorXd& q, const VectorXd& v,
-                                     const Moment<double>& at) const {
-  const Moment<double> shaft = shaftOf(q, v, 0.0, at);
+                                     const EvaluationPoint<double>& at) const {
+  const EvaluationPoint<double> shaft = shaftOf(q, v, 0.0, at);
   const VectorXd x = whirl(q);
   const VectorXd r = whirl(v);
   const VectorXd of_unbalance = -shaft.speed * shaft.speed * leverTurn(shaft.angle);
@@ -159,19 +159,19 @@ VectorXd SpinningRotor::appliedForce(const VectorXd& q, const VectorXd& v,
 }
 
 VectorXd SpinningRotor::momenta(const VectorXd& q, const VectorXd& v,
-                                const Moment<double>& at) const {
-  const Moment<double> shaft = shaftOf(q, v, 0.0, at);
+                                const EvaluationPoint<double>& at) const {
+  const EvaluationPoint<double> shaft = shaftOf(q, v, 0.0, at);
   const VectorXd s = lever(shaft.angle);
   return withSpin(held_->momenta(whirl(q), whirl(v), shaft) + shaft.speed * s,
                   coupling_.polar_inertia * shaft.speed + s.dot(whirl(v)));
 }
 
 Energies SpinningRotor::energies(const VectorXd& q, const VectorXd& v,
-                                 const Moment<double>& at) const {
+                                 const EvaluationPoint<double>& at) const {
   const VectorXd x = whirl(q);
   const VectorXd r = whirl(v);
   const Index n = x.size();
-  const Moment<double> shaft = shaftOf(q, v, acceleration(q, v, at)[n], at);
+  const EvaluationPoint<double> shaft = shaftOf(q, v, acceleration(q, v, at)[n], at);
   const double w = shaft.speed;
   const VectorXd s = lever(shaft.angle);
   const double turning = r.dot(coupling_.circulatory * x);
@@ -180,7 +180,7 @@ Energies SpinningRotor::energies(const VectorXd& q, const VectorXd& v,
   e.jacobi = e.kinetic + e.potential;
   e.dissipated_power +=
       2.0 * w * turning + w * w * x.dot(coupling_.resistance * x) + coupling_.motor.drag * w * w;
-  // Of the held rotor it has what the shaft puts in; here that is no work from outside.
+  // The rotor at prescribed speed includes the power of the shaft; here that is internal.
   const VectorXd from_shaft = -shaft.acceleration * s - w * w * leverTurn(shaft.angle);
   e.input_power +=
       w * turning - r.dot(from_shaft) + w * (coupling_.motor.torque(w) + localMoment(x, r, w));
@@ -188,11 +188,11 @@ Energies SpinningRotor::energies(const VectorXd& q, const VectorXd& v,
 }
 
 Linearization SpinningRotor::linearization(const VectorXd& q, const VectorXd& v, const VectorXd& a,
-                                           const Moment<double>& at) const {
+                                           const EvaluationPoint<double>& at) const {
   const Index n = held_->dof();
   const VectorXd x = whirl(q);
   const VectorXd r = whirl(v);
-  const Moment<double> shaft = shaftOf(q, v, a[n], at);
+  const EvaluationPoint<double> shaft = shaftOf(q, v, a[n], at);
   const double w = shaft.speed;
   const VectorXd s = lever(shaft.angle);
   const VectorXd turn = leverTurn(shaft.angle);
@@ -210,7 +210,7 @@ Linearization SpinningRotor::linearization(const VectorXd& q, const VectorXd& v,
   by_rate.bottomLeftCorner(1, n) = -(coupling_.circulatory.transpose() * x).transpose();
   const double step = kSpeedStep * std::max(1.0, std::fabs(w));
   const auto pushed = [&](double speed) {
-    return held_->unbalancedForce(x, r, {shaft.time, shaft.angle, speed, shaft.acceleration});
+    return held_->residualForce(x, r, {shaft.time, shaft.angle, speed, shaft.acceleration});
   };
   by_rate.topRightCorner(n, 1) = (pushed(w - step) - pushed(w + step)) / (2.0 * step);
   const Gradient<double, 1> motor = coupling_.motor.torque(Gradient<double, 1>(w, 0));
@@ -241,11 +241,11 @@ Linearization SpinningRotor::linearization(const VectorXd& q, const VectorXd& v,
 
 std::vector<Condition> SpinningRotor::conditions(const VectorXd& q, const VectorXd& v,
                                                  const VectorXd& a,
-                                                 const Moment<double>& at) const {
+                                                 const EvaluationPoint<double>& at) const {
   return held_->conditions(whirl(q), whirl(v), whirl(a), shaftOf(q, v, a[a.size() - 1], at));
 }
 
-Sketch SpinningRotor::sketch(const VectorXd& q, const Moment<double>& at) const {
+Sketch SpinningRotor::sketch(const VectorXd& q, const EvaluationPoint<double>& at) const {
   return held_->sketch(whirl(q), {at.time, q[q.size() - 1], at.speed, at.acceleration});
 }
 

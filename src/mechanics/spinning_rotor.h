@@ -15,7 +15,7 @@ namespace whirl_twin {
 class SpinningRotor final : public Dynamics {
  public:
   /// `held`: the rotor as it whirls while its shaft's motion is prescribed, with these local
-  /// forces. Throws Refusal for unbalances that the polar inertia cannot carry, std::logic_error
+  /// forces. Throws InputError for unbalances that the polar inertia cannot carry, std::logic_error
   /// for forces on the shaft that have no mass.
   SpinningRotor(std::shared_ptr<const Dynamics> held, std::vector<LocalForce> forces,
                 SpinCoupling coupling);
@@ -40,28 +40,30 @@ class SpinningRotor final : public Dynamics {
   std::vector<Station> stations() const override;
 
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override;
-  Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                  const Moment<double>& at) const override;
+                               const EvaluationPoint<double>& at) const override;
+  Eigen::VectorXd residualForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                const EvaluationPoint<double>& at) const override;
   Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override;
+                               const EvaluationPoint<double>& at) const override;
   Eigen::MatrixXd massMatrix(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                             const Moment<double>& at) const override;
+                             const EvaluationPoint<double>& at) const override;
   Eigen::VectorXd momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                          const Moment<double>& at) const override;
+                          const EvaluationPoint<double>& at) const override;
   Energies energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                    const Moment<double>& at) const override;
+                    const EvaluationPoint<double>& at) const override;
   Linearization linearization(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                              const Eigen::VectorXd& a, const Moment<double>& at) const override;
+                              const Eigen::VectorXd& a,
+                              const EvaluationPoint<double>& at) const override;
   std::vector<Reaction> reactions(const Eigen::VectorXd&, const Eigen::VectorXd&,
-                                  const Eigen::VectorXd&, const Moment<double>&) const override {
+                                  const Eigen::VectorXd&,
+                                  const EvaluationPoint<double>&) const override {
     return {};
   }
   std::vector<Condition> conditions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                     const Eigen::VectorXd& a,
-                                    const Moment<double>& at) const override;
+                                    const EvaluationPoint<double>& at) const override;
   std::string singularMass() const override { return held_->singularMass(); }
-  Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const override;
+  Sketch sketch(const Eigen::VectorXd& q, const EvaluationPoint<double>& at) const override;
 
  private:
   Eigen::VectorXd lever(double angle) const;      ///< s
@@ -74,7 +76,7 @@ class SpinningRotor final : public Dynamics {
   SpinCoupling coupling_;
   Eigen::VectorXcd unbalance_;  ///< F
   Eigen::MatrixXd mass_;
-  std::unique_ptr<const SpinningRotor> balanced_;  // none: nothing turns with the shaft
+  std::unique_ptr<const SpinningRotor> balanced_;  // none: no synchronous force
 };
 
 /// F of a rotor: the sum of its forces of harmonic 1. Throws std::logic_error for any other.

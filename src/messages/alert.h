@@ -17,14 +17,14 @@ struct Alert {
 
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-  std::uint32_t id = 0;  ///< counts up; kept from raised to cleared
+  std::uint32_t id = 0;  ///< increasing; constant from raised to cleared
   std::string type;      ///< CRITICAL_SPEED_APPROACH, IN_CRITICAL_BAND, UNSTABLE, ...
   std::string system;
   Severity severity = Severity::kInfo;
   bool raised = true;                         ///< in the active list
   double raised_time = 0.0;                   ///< [s], simulated
   double time = 0.0;                          ///< [s], simulated
-  std::int64_t stamp = 0;                     ///< [ns], of the state it was last judged on
+  std::int64_t stamp = 0;                     ///< [ns], of the state evaluated last
   double speed = kNone;                       ///< [rad/s]
   double acceleration = kNone;                ///< [rad/s^2]
   double critical_speed = kNone;              ///< [rad/s]
@@ -34,11 +34,12 @@ struct Alert {
   double amplification_factor = kNone;        ///< [-]
   double decay_rate = kNone;                  ///< [1/s]
   std::string text;                           ///< one sentence for a person
-  bool acknowledged = false;                  ///< somebody has said that they have seen it
-  bool latched = false;            ///< its cause has gone, and it waits for a reset of the alarms
-  bool first_out = false;          ///< none of its system was there when it was raised
-  std::uint32_t repeats = 0;       ///< how often it had been raised before, since the last reset
-  double amplitude = kNone;        ///< [m], whirl radius, or as the text says
+  bool acknowledged = false;                  ///< acknowledged by an operator
+  bool latched = false;            ///< its cause has vanished, and it waits for a reset of the
+                                   ///< alarms
+  bool first_out = false;          ///< no alert of its system was active when it was raised
+  std::uint32_t repeats = 0;       ///< number of earlier occurrences since the last reset
+  double amplitude = kNone;        ///< [m], whirl radius, or the quantity that the text names
   double amplitude_limit = kNone;  ///< [m], that it is above
 
   template <class Visit>
@@ -71,7 +72,7 @@ struct Alert {
 
 namespace whirl_twin::alert_type {
 
-// The types of alert the monitor raises, as they stand in whirl_twin/Alert.
+// The types of alert that the monitor raises, spelled as in whirl_twin/Alert.
 
 inline constexpr char kCriticalSpeedApproach[] = "CRITICAL_SPEED_APPROACH";
 inline constexpr char kInCriticalBand[] = "IN_CRITICAL_BAND";
@@ -133,7 +134,7 @@ inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kInhibited,
                                        kTripMultiplied};
 
-/// The system of an alert about all of the twin.
+/// The system of an alert about the whole twin.
 inline constexpr char kEverybody[] = "twin";
 
 }  // namespace whirl_twin::alert_type

@@ -6,7 +6,7 @@ namespace whirl_twin {
 
 std::uint32_t crc32c(const void* data, std::size_t size, std::uint32_t before) {
   constexpr std::uint32_t kAll = 0xffffffffU;
-  // What is reflected on the way in and out begins with the bits in the other order.
+  // A reflected CRC starts with the bits in reverse order.
   std::uint32_t begin = 0;
   for (unsigned bit = 0; bit < 32; ++bit) {
     begin |= (((before ^ kAll) >> bit) & 1U) << (31U - bit);

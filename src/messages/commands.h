@@ -1,6 +1,8 @@
-// A command to the inputs of a system, for the twin to take: from the next step on they have these
-// values, until the duration is out and the scene's own return.
+// A command to the inputs of a system: from the next step on they have these values, until the
+// duration has elapsed and the scene's values return.
 #pragma once
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <cstdint>
@@ -18,7 +20,7 @@ struct InputCommand {
 
   Instant at;  ///< of the sender, if it has one
   std::string system;
-  std::vector<std::string> input;  ///< names, as `twin models` has them
+  std::vector<std::string> input;  ///< names, as listed by `twin models`
   std::vector<double> value;       ///< of each, in the input's unit; finite
   double duration = 0.0;           ///< [s], simulated; > 0
 
@@ -39,26 +41,28 @@ struct InputCommand {
   }
   static void requireDuration(const char* field, double duration) {
     if (!(duration > 0.0 && duration <= kLongest)) {
-      throw RejectedMessage(std::string(field) + ": must be > 0 s and at most 1e6 s");
+      throw RejectedMessage(
+          fmt::format("{}: must be > 0 s and at most 1e6 s, found {:g} s", field, duration));
     }
   }
 };
 
-// A command to the monitor about its alarms: the same as its services take. It is told which
-// system, which type, how long; what it does not speak of stays empty or 0.
+// A command to the monitor about its alarms, with the arguments of its services: the system, the
+// type, the duration. A field that is not given stays empty or 0.
 
 struct AlarmCommand {
   static constexpr MessageKind kKind{"alarm_commands", "AlarmCommand", "alarm_commands",
                                      MessageKind::kCommand};
-  static constexpr double kLongest = 3600.0;  ///< [s], of an inhibition: one forgotten ends
+  static constexpr double kLongest = 3600.0;  ///< [s], of an inhibition, which thus ends even if
+                                              ///< forgotten
 
-  /// None is 0: a message that nobody has filled in is refused.
+  /// None is 0: a message with unset fields is rejected.
   enum Command : std::uint8_t { kAcknowledge = 1, kReset, kInhibit };
 
   Instant at;  ///< of the sender, if it has one
   std::uint8_t command = 0;
   std::string system;     ///< "": every one
-  std::string type;       ///< of the alerts that are acknowledged; "": every one
+  std::string type;       ///< of the alerts to acknowledge; "": all
   double duration = 0.0;  ///< [s], wall time, of an inhibition; 0 ends it
 
   template <class Visit>
@@ -78,7 +82,8 @@ struct AlarmCommand {
   }
   static void requireDuration(const char* field, double duration) {
     if (!(duration >= 0.0 && duration <= kLongest)) {
-      throw RejectedMessage(std::string(field) + ": must be from 0 to 3600 s");
+      throw RejectedMessage(
+          fmt::format("{}: must be from 0 to 3600 s, found {:g} s", field, duration));
     }
   }
 };

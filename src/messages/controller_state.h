@@ -1,4 +1,4 @@
-// A controller of the twin as it runs.
+// State of a controller of the running twin.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,10 @@
 
 namespace whirl_twin::state {
 
-// How far the loop of a controller is from instability, as the monitor judges it.
+// Distance of a control loop from instability, as the monitor evaluates it.
 
-/// The least margins of all its sensors, all other loops closed. NaN: not known, or not yet.
+/// The smallest margins over all its sensors, all other loops closed. NaN: unknown, or not yet
+/// computed.
 struct ControllerMargins {
   static constexpr MessageKind kKind{"margins", "ControllerMargins", "controllers/*/margins",
                                      MessageKind::kJudged};
@@ -21,23 +22,24 @@ struct ControllerMargins {
 
   Instant at;
   std::string controller;
-  std::uint8_t verdict = 4;  ///< on its loop, as StabilityMargin's
+  std::uint8_t verdict = 4;  ///< of its loop, values as in StabilityMargin
   std::string verdict_name;
-  std::string objection;            ///< why the loop cannot be judged; else ""
-  double speed = kNone;             ///< [rad/s], of the shaft that it is judged at; NaN: no shaft
+  std::string objection;            ///< why the loop cannot be evaluated; else ""
+  double speed = kNone;             ///< [rad/s], shaft speed of the evaluation; NaN: no shaft
   double spectral_radius = kNone;   ///< [-], in `period`
-  double period = kNone;            ///< [s], after which the samples of its loop come again
+  double period = kNone;            ///< [s], period after which the sampling pattern of its loop
+                                    ///< repeats
   double sensitivity_peak = kNone;  ///< [-], max |S|; infinite: not stable
   double peak_frequency = kNone;    ///< [rad/s]
-  std::string zone;                 ///< ISO 14839-3: A, B, C, D, unbounded; "": not known
-  double gain_margin = kNone;       ///< [-], the gain may rise to less than so many times
-  double gain_reduction = kNone;    ///< [-], and fall to more than this part
+  std::string zone;                 ///< ISO 14839-3: A, B, C, D, unbounded; "": unknown
+  double gain_margin = kNone;       ///< [-], maximum factor of the gain
+  double gain_reduction = kNone;    ///< [-], minimum factor of the gain
   double phase_margin = kNone;      ///< [rad]
   double phase_crossover = kNone;   ///< [rad/s], where
   double delay_margin = kNone;      ///< [s], that the delay may grow by
-  double saturated =
-      kNone;              ///< [-], part of the last second's outputs that were not given as asked
-  double missed = kNone;  ///< [-], part of its samples that gave no number
+  double saturated = kNone;  ///< [-], fraction of the last second's outputs that the actuators did
+                             ///< not realize
+  double missed = kNone;     ///< [-], fraction of its samples without a number
   // At each of its sensors.
   std::vector<std::string> signal;
   std::vector<double> signal_peak;       ///< [-], max |S|
@@ -69,13 +71,13 @@ struct ControllerMargins {
   }
 };
 
-/// What a speed controller does about a resonance that holds its shaft.
+/// State of a speed controller's response to resonance capture of its shaft.
 enum class Supervision : std::uint8_t {
   kNone = 0,         ///< nothing holds it
-  kRetreating = 1,   ///< captured: it is unloaded and goes back below the band
+  kRetreating = 1,   ///< captured: unloaded, returns below the band
   kTryingAgain = 2,  ///< in the band, or on its way
-  kGivenUp = 3,      ///< after its tries it stays below
-  kRefused = 4,      ///< known beforehand: it stays below
+  kGivenUp = 3,      ///< aborted after the maximum number of tries: stays below
+  kRefused = 4,      ///< known in advance to be impossible: stays below
 };
 
 struct ControllerState {
@@ -86,15 +88,16 @@ struct ControllerState {
   std::string controller;
   std::vector<std::string> signal;       ///< "rotor.x"
   std::vector<std::string> signal_unit;  ///< "m", "rad", "m/s", "rad/s"
-  std::vector<double> value;             ///< as the sensors showed it at the last sample
+  std::vector<double> value;             ///< the sensor values at the last sample
   std::vector<std::string> input;        ///< "rotor.force_x"
   std::vector<std::string> input_unit;
   std::vector<double> output;  ///< as it acts
   std::int64_t samples = 0;    ///< since the start
-  std::int64_t saturated = 0;  ///< outputs that an actuator could not give
-  std::int64_t missed = 0;     ///< samples without an output that is a number
-  std::int64_t age = -1;       ///< [samples], of what one in another process gave last; -1: nothing
-  bool lost = false;           ///< it has not answered for its time-out
+  std::int64_t saturated = 0;  ///< outputs limited by an actuator
+  std::int64_t missed = 0;     ///< samples without a finite output
+  std::int64_t age = -1;       ///< [samples], age of the newest output of a controller in another
+                               ///< process; -1: none
+  bool lost = false;           ///< its time-out has expired without an answer
   Supervision supervision = Supervision::kNone;
 
   template <class Visit>

@@ -10,11 +10,11 @@ std::string csvCell(const std::string& text) {
   if (shown.find_first_of(",\"") == std::string::npos) {
     return shown;
   }
-  std::string quoted = "\"";
+  std::string inQuotes = "\"";
   for (const char c : shown) {
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
+    inQuotes += c == '"' ? "\"\"" : std::string(1, c);
   }
-  return quoted + '"';
+  return inQuotes + '"';
 }
 
 }  // namespace whirl_twin

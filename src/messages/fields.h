@@ -1,27 +1,27 @@
-// How a message lists what it consists of: once, for all who have to know it (converters to ROS and
-// LCM, checks, logs, tests). A message is a plain struct with
+// Declares the fields of a message once, for all users (converters to ROS and LCM, checks, logs,
+// tests). A message is a plain struct with
 //
 //   static constexpr MessageKind kKind{...};
 //   template <class Visit> static void fields(Visit& visit);
 //
-// where fields() tells a visitor every field, in the order of the .lcm file and by the name it has
+// where fields() passes every field to a visitor, in the order of the .lcm file and by its name
 // there and in the .msg file:
 //
-//   visit.head(field)               when it is about, and whom: LCM's utime, stamp, step, NAME and
-//                                   time, ROS's header, step and time; head(): about nobody
-//   visit.sampled(field)            of a sample, and whom it is about: LCM's utime, NAME, sample
-//   and
-//                                   time, ROS's header, sample and time
-//   visit.stamped()                 utime and stamp of a message with a `time` of its own; no
-//   header visit(field, unit, check)       a value visit.array(length, field, ...) an array, and
-//   LCM's field that says how long it is visit.along(first, field, ...)  another array, as long as
-//   the first visit.rows(length, field)       structs, spread over arrays of the message side by
-//   side visit.negated(field)            a flag that the message says the other way round
-//   visit.derived(field, of)        a flag that follows from the other fields: of(message)
+//   visit.head(field)               instant and subject: LCM's utime, stamp, step, NAME and time,
+//                                   ROS's header, step and time; head(): no subject
+//   visit.sampled(field)            a sample and its subject: LCM's utime, NAME, sample and time,
+//                                   ROS's header, sample and time
+//   visit.stamped()                 utime and stamp of a message with its own `time`; no header
+//   visit(field, unit, check)       a value
+//   visit.array(length, field, ...) an array, and LCM's field with its length
+//   visit.along(first, field, ...)  another array, as long as the first
+//   visit.rows(length, field)       structs, stored as parallel arrays of the message
+//   visit.negated(field)            a flag that the message stores inverted
+//   visit.derived(field, of)        a flag computed from the other fields: of(message)
 //
 // A check is called as check(name, value) or check(name, value, message) and throws
-// RejectedMessage. Units are those of the .msg file: "m", "rad/s"; "-": a number without one; "":
-// no number. A field that Stays::kSame is the same in all messages of a channel.
+// RejectedMessage. Units are those of the .msg file: "m", "rad/s"; "-": a dimensionless number; "":
+// not a number. A field with Stays::kSame is constant in all messages of a channel.
 #pragma once
 
 #include <cstdint>
@@ -32,24 +32,25 @@
 
 namespace whirl_twin {
 
-/// How messages of a kind are called and sent.
+/// Names and transport properties of a kind of message.
 struct MessageKind {
   enum Traits : unsigned {
-    kSeries = 1,       ///< every n-th step without a hole; else when there is news
-    kLatched = 2,      ///< on ROS, who comes later gets the newest
-    kJudged = 4,       ///< comes from the monitor, not from what it watches
+    kSeries = 1,       ///< every n-th step without a gap; else on change
+    kLatched = 2,      ///< on ROS, late subscribers receive the newest
+    kJudged = 4,       ///< published by the monitor, not by the monitored twin
     kJointStates = 8,  ///< on ROS, also as sensor_msgs/JointState
-    kCommand = 16,     ///< to the twin; no bridge passes it on, for a log may hold old ones
+    kCommand = 16,     ///< to the twin; not forwarded by bridges, because a log may contain old
+                       ///< ones
   };
   const char* name;   ///< "whirl"; its channel is TWIN_<SYSTEM>_WHIRL
   const char* type;   ///< "WhirlState", of the ROS message
-  const char* topic;  ///< "*/whirl": below the twin's namespace, * is whom it is about
+  const char* topic;  ///< "*/whirl": below the twin's namespace, * is the subject
   unsigned traits = 0;
 
   constexpr bool has(Traits trait) const { return (traits & trait) != 0; }
 };
 
-/// A field: `in` finds it in a message, `of` in our struct.
+/// A field: `in` selects it in a message, `of` in our struct.
 template <class In, class Of>
 struct Field {
   const char* name;
@@ -61,8 +62,8 @@ constexpr Field<In, Of> makeField(const char* name, In in, Of of) {
   return {name, in, of};
 }
 
-// C++17 has no other way to say a name once and have its text and its members.
-/// The field `name` of messages, `member` of our struct.
+// C++17 has no reflection: a macro derives the text and the pointer from one name.
+/// The field `name` of messages, stored in `member` of our struct.
 #define TWIN_RENAMED_FIELD(name, member)                          \
   ::whirl_twin::makeField(                                        \
       #name, [](auto& message) -> auto& { return message.name; }, \
@@ -100,10 +101,10 @@ void applyCheck(const Check& check, const char* name, const Value& value, const 
   }
 }
 
-/// What the visitors have in common. Each has head(), head(field) and rows(length, field), and
+/// Base class of the visitors. Each has head(), head(field) and rows(length, field), and
 ///   value(field, unit, check, stays)   for a value or an array
-///   length(length, array), alike(first, array)   where the lengths of arrays concern it
-/// and says for itself what it makes of flags that are negated or derived.
+///   length(length, array), alike(first, array)   where the lengths of arrays matter
+/// and defines how it handles negated and derived flags.
 template <class Self>
 class FieldVisit {
  public:
@@ -146,7 +147,7 @@ class FieldVisit {
   Self& self() { return static_cast<Self&>(*this); }
 };
 
-/// Visits the members of one of our structs, const or not: take(name, value, stays).
+/// Visits the data members of one of our structs, const or not: take(name, value, stays).
 template <class State, class Take>
 class MemberVisit : public FieldVisit<MemberVisit<State, Take>> {
  public:
@@ -192,7 +193,7 @@ void eachMember(State& state, Take&& take) {
   State::fields(visit);
 }
 
-/// Whom a message is about: a system, drive or source; "" for one about all of the twin.
+/// Subject of a message: a system, drive or source; "" for one about the whole twin.
 template <class State>
 std::string subjectOf(const State& state) {
   std::string subject;

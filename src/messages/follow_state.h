@@ -1,5 +1,5 @@
-// What a follower knows of its machine: the parameters it estimates, how far what is measured lies
-// from what the model predicts, and in which state sensors and clocks are.
+// Output of the state estimator of an asset: the estimated parameters, the difference between
+// measurement and prediction, and the status of sensors and clocks.
 #pragma once
 
 #include <algorithm>
@@ -14,71 +14,73 @@
 
 namespace whirl_twin::state {
 
-/// How a channel's newest samples were taken.
+/// Use of a channel's newest samples.
 enum class ChannelStatus : std::uint8_t {
   kUsed = 0,     ///< by the filter
-  kSilent = 1,   ///< none came
-  kRefused = 2,  ///< too far from what was predicted
-  kInvalid = 3,  ///< said to be invalid, or not finite
+  kSilent = 1,   ///< no sample received
+  kRefused = 2,  ///< innovation too large
+  kInvalid = 3,  ///< flagged as invalid, or not finite
 };
 
 struct FollowState {
   static constexpr MessageKind kKind{"follow", "FollowState", "*/follow"};
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-  Instant at;  ///< time: the twin's, which the machine's instants were brought to
+  Instant at;  ///< time: the twin's, to which the plant's time stamps are converted
   std::string system;
 
   // Estimated parameters of the model.
   std::vector<std::string> parameter;  ///< paths, as in the scene
   std::vector<std::string> parameter_unit;
   std::vector<double> value;      ///< [parameter_unit]
-  std::vector<double> deviation;  ///< standard deviation of it; NaN: not known
+  std::vector<double> deviation;  ///< its standard deviation; NaN: unknown
 
-  // What is measured.
+  // Measured channels.
   std::vector<std::string> channel;  ///< SOURCE/CHANNEL of a Measurement
   std::vector<std::string> channel_unit;
-  std::vector<double> residual;              ///< [channel_unit], measured less predicted; NaN: none
-  std::vector<double> residual_deviation;    ///< as the filter expects it; NaN: not known
+  std::vector<double> residual;              ///< [channel_unit], measurement minus prediction; NaN:
+                                             ///< none
+  std::vector<double> residual_deviation;    ///< expected by the filter; NaN: unknown
   std::vector<double> offset;                ///< [channel_unit], of the sensor; NaN: not estimated
   std::vector<std::uint8_t> channel_status;  ///< a ChannelStatus
 
-  // The residuals over a window, each over its deviation: their mean square, 1 if the model is the
-  // machine, and their correlation with the ones before, then 0. The limits are those of a rate of
-  // false alarms; NaN: not enough has been seen.
+  // Statistics of the normalized residuals over a window: their mean square, 1 if the model agrees
+  // with the plant, and their correlation with the previous ones, then 0. The limits correspond to
+  // a rate of false alarms; NaN: not enough data.
   double mismatch = kNone;         ///< [-]
-  double mismatch_least = kNone;   ///< [-], below: they are smaller than the model's noise allows
+  double mismatch_least = kNone;   ///< [-], lower limit: the residuals are smaller than the model's
+                                   ///< noise allows
   double mismatch_limit = kNone;   ///< [-], above: larger
   double whiteness = kNone;        ///< [-]
-  double whiteness_limit = kNone;  ///< [-], of its magnitude
+  double whiteness_limit = kNone;  ///< [-], limit of its magnitude
 
-  // The parameter that has gone furthest from its reference, if one is beyond the limit.
+  // The parameter with the largest drift from its reference, if one is beyond the limit.
   std::string drift_parameter;  ///< "": none
   double drift_from = kNone;    ///< the reference, in its unit
   double drift_to = kNone;      ///< in its unit
   double drift_since = kNone;   ///< [s], `time` when it began
-  double drift = kNone;         ///< [-], of all parameters, what is nearest to its limit
-  double drift_limit = kNone;   ///< [-]; NaN: no reference has been learned
+  double drift = kNone;         ///< [-], test statistic of the parameter nearest to its limit
+  double drift_limit = kNone;   ///< [-]; NaN: no reference yet
 
-  // What the bearings bear.
+  // Bearing loads.
   std::vector<std::string> bearing;
   std::vector<double> force_x;          ///< [N], on the shaft
   std::vector<double> force_y;          ///< [N]
-  std::vector<double> force_deviation;  ///< [N], of each component; NaN: not known
+  std::vector<double> force_deviation;  ///< [N], of each component; NaN: unknown
 
   // Samples since the start.
   std::int64_t used = 0;
   std::int64_t late = 0;      ///< came after their turn
   std::int64_t lost = 0;      ///< of blocks that never came
   std::int64_t repeated = 0;  ///< came twice
-  std::int64_t invalid = 0;   ///< said to be invalid, or not finite
-  std::int64_t refused = 0;   ///< too far from what was predicted
+  std::int64_t invalid = 0;   ///< flagged as invalid, or not finite
+  std::int64_t refused = 0;   ///< innovation too large
 
-  double clock_offset = kNone;            ///< [s], the machine's clock less the twin's
+  double clock_offset = kNone;            ///< [s], the plant's clock minus the twin's
   double clock_offset_deviation = kNone;  ///< [s]
-  double clock_drift = kNone;             ///< [-], seconds that it gains in one
-  bool shaft_known = false;               ///< the keyphasor tells the shaft's angle
-  double shaft_angle_deviation = kNone;   ///< [rad]; NaN: no shaft, or not known
+  double clock_drift = kNone;             ///< [-], gain in seconds per second
+  bool shaft_known = false;               ///< the keyphasor yields the shaft angle
+  double shaft_angle_deviation = kNone;   ///< [rad]; NaN: no shaft, or unknown
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -88,7 +90,7 @@ struct FollowState {
       const auto& all = message.parameter;
       if (!path.empty() && std::find(all.begin(), all.end(), path) == all.end()) {
         throw RejectedMessage(std::string(name) + ": expected one of its parameters, found " +
-                              quoted(path));
+                              inQuotes(path));
       }
     };
     visit.head(TWIN_FIELD(system));
@@ -133,7 +135,7 @@ struct FollowState {
   }
 
  private:
-  /// Not negative; NaN where it is not known.
+  /// Not negative; NaN if unknown.
   static void requireDeviation(const char* field, double value) {
     if (value < 0.0) {
       throw RejectedMessage(std::string(field) + ": expected at least 0");
@@ -144,7 +146,7 @@ struct FollowState {
     const std::size_t slash = path.find('/');
     if (slash == std::string::npos) {
       throw RejectedMessage(std::string(field) + ": expected SOURCE/CHANNEL, found " +
-                            quoted(path));
+                            inQuotes(path));
     }
     requireName(field, path.substr(0, slash));
     requireName(field, path.substr(slash + 1));

@@ -1,5 +1,5 @@
-// How the fixed-rate loop of a simulation has kept its time, and how its systems fare. Latencies
-// since the last reset, warm-up left out.
+// Timing of the fixed-rate loop of a simulation, and the status of its systems. Latencies since the
+// last reset, without warm-up.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct LoopStatistics {
   std::string kernel;
   bool paused = false;
   std::uint64_t overruns = 0;           ///< cycles that ended after the next one was due
-  std::uint64_t skipped_steps = 0;      ///< periods left out to keep the phase
-  std::uint64_t dropped_snapshots = 0;  ///< states not published: the publisher was behind
+  std::uint64_t skipped_steps = 0;      ///< periods skipped to keep the phase
+  std::uint64_t dropped_snapshots = 0;  ///< states not published because the publisher was behind
   std::uint64_t page_faults = 0;        ///< of the loop's thread
   double wakeup_latency_p50 = 0.0;      ///< [s]
   double wakeup_latency_p99 = 0.0;      ///< [s]
@@ -38,29 +38,29 @@ struct LoopStatistics {
   std::vector<std::string> system;
   std::vector<std::string> integrator;
   std::vector<double> error_estimate;    ///< [-], NaN: not estimated
-  std::vector<double> tolerance;         ///< [-], what integrator: auto promises; else NaN
+  std::vector<double> tolerance;         ///< [-], error bound of integrator: auto; else NaN
   std::vector<std::uint8_t> stopped;     ///< 0: running, 1 to 5: as in the message
   std::vector<std::string> stopped_why;  ///< empty while running
-  // Which run of simulated time this is. A reset is announced by a higher epoch, a simulation that
-  // was started again by a later start; 0: not told.
+  // Identifies the run of simulated time: a reset increments the epoch, a restart of the simulation
+  // has a later start; 0: unknown.
   std::int64_t started = 0;         ///< [ns], wall clock when the simulation was started
   std::uint64_t epoch = 0;          ///< resets since then
   std::uint64_t lcm_failed = 0;     ///< messages that LCM could not send
   std::uint64_t publish_every = 0;  ///< steps from one publication to the next, at present
-  // Simulated time beside wall time [-]; NaN: not told.
+  // Simulated time relative to wall time [-]; NaN: unknown.
   double real_time_factor = kNotTold;  ///< asked; 0: all it can
   double achieved_factor = kNotTold;   ///< since the last message
-  std::uint64_t ros_lost = 0;          ///< messages that subscribers on ROS were too slow for
-  std::string sender;  ///< which process says so, as people find it; empty: not told
+  std::uint64_t ros_lost = 0;          ///< messages lost because ROS subscribers were too slow
+  std::string sender;                  ///< readable name of the publishing process; empty: unknown
   // One entry a controller in another process: the age of its newest command at each sample, since
   // the start or the last reset [samples]; NaN: there was none.
   std::vector<std::string> external;
   std::vector<double> age_p50;
   std::vector<double> age_p99;
   std::vector<double> age_max;
-  // Newer still; NaN: not told.
-  std::int32_t cpu = -1;                 ///< the one processor that the loop keeps to; -1: several
-  std::uint64_t late_wakeups = 0;        ///< of the overruns: woken late by longer than it then ran
+  // Added later; NaN: unknown.
+  std::int32_t cpu = -1;                 ///< the processor to which the loop is pinned; -1: several
+  std::uint64_t late_wakeups = 0;        ///< overruns whose wake-up latency exceeded their run time
   double wakeup_latency_min = kNotTold;  ///< [s]
   double wakeup_latency_mean = kNotTold;  ///< [s]
   double wakeup_latency_p999 = kNotTold;  ///< [s]
@@ -69,12 +69,12 @@ struct LoopStatistics {
   double execution_p999 = kNotTold;       ///< [s]
   std::string waits_for;  ///< in lockstep: the nodes that it waits for at present; empty: none
   // One entry for each of its systems, and one for its controllers if it has any; since the start
-  // or the last reset of the statistics. Newer still: none in logs of before.
+  // or the last reset of the statistics. Added later still: absent from older logs.
   std::vector<std::string> timed;
-  std::vector<double> step_mean;  ///< [s], that it takes of a step of everything
+  std::vector<double> step_mean;  ///< [s], its time in a complete step
   std::vector<double> step_max;   ///< [s]
   std::vector<double>
-      long_steps;  ///< of the overruns that were no late wake-ups, those of which it took most
+      long_steps;  ///< overruns, other than by wake-up latency, in which it took most of the time
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -131,9 +131,9 @@ struct LoopStatistics {
 
 namespace whirl_twin {
 
-// Which part of the twin to look at when its steps take too long.
+// Finds the system that causes most of the deadline misses.
 
-/// The part that most long steps were due to, or that takes most of a step where there were none:
+/// The subsystem that caused most long steps, or that takes most of a step where there were none:
 /// "rotor: 3.1 us of a step, at most 1204.7 us; took most of 12 long steps". "" where nothing was
 /// timed.
 std::string slowestPart(const state::LoopStatistics& loop);

@@ -1,5 +1,5 @@
 // A block of measured samples: of displacement probes, encoders, torque sensors, or the pulses of a
-// keyphasor, each of which is an event with an instant of its own (one channel, `keyphasor`).
+// keyphasor, each of which is an event with its own time stamp (one channel, `keyphasor`).
 #pragma once
 
 #include <algorithm>
@@ -15,17 +15,17 @@ namespace whirl_twin::state {
 struct Measurement {
   static constexpr MessageKind kKind{"measurement", "Measurement", "measured/*",
                                      MessageKind::kSeries};
-  /// Values in a block: with instants and validity they fit the longest payload that logs are read
-  /// with.
-  static constexpr std::int64_t kMostValues = 50'000;
-  static constexpr std::int64_t kMostChannels = 1'000;
-  static constexpr std::int64_t kLongestPeriod = 3'600'000'000'000;  ///< [ns]
+  /// Maximum number of values in a block: with instants and validity they fit the longest payload
+  /// accepted in logs.
+  static constexpr std::int64_t kMaxValues = 50'000;
+  static constexpr std::int64_t kMaxChannels = 1'000;
+  static constexpr std::int64_t kMaxPeriod = 3'600'000'000'000;  ///< [ns]
 
-  Instant at;                         ///< step: number of the block; time: when it was complete
-  std::string source;                 ///< what measured
+  Instant at;                         ///< step: number of the block; time: when it was completed
+  std::string source;                 ///< name of the data source
   std::vector<std::string> channel;   ///< names
   std::vector<std::string> unit;      ///< of each channel
-  std::vector<double> deviation;      ///< standard deviation of each, in its unit; NaN: not known
+  std::vector<double> deviation;      ///< standard deviation of each, in its unit; NaN: unknown
   std::int64_t samples = 0;           ///< of each channel
   std::int64_t first_instant = 0;     ///< [ns], of the first sample
   std::int64_t period = 0;            ///< [ns], from sample to sample; 0: each has an instant
@@ -45,9 +45,9 @@ struct Measurement {
     visit.array(TWIN_FIELD(channels), TWIN_FIELD(channel), "", requireChannels, Stays::kSame);
     visit.along(TWIN_FIELD(channel), TWIN_FIELD(unit), "", each(requireText));
     visit.along(TWIN_FIELD(channel), TWIN_FIELD(deviation), "", each(requireDeviation));
-    visit(TWIN_FIELD(samples), "", between(1, kMostValues));
+    visit(TWIN_FIELD(samples), "", between(1, kMaxValues));
     visit(TWIN_FIELD(first_instant), "ns", between(-kMaxStamp, kMaxStamp));
-    visit(TWIN_FIELD(period), "ns", between(0, kLongestPeriod));
+    visit(TWIN_FIELD(period), "ns", between(0, kMaxPeriod));
     visit.array(TWIN_FIELD(instants), TWIN_FIELD(instant), "ns",
                 [](const char* name, const auto& instants, const auto& message) {
                   requireInstants(name, instants, message.samples, message.first_instant,
@@ -56,8 +56,7 @@ struct Measurement {
     visit.array(TWIN_FIELD(values), TWIN_FIELD(value), "",
                 [](const char* name, const auto& values, const auto& message) {
                   const auto channels = static_cast<std::int64_t>(message.channel.size());
-                  requireRange("samples times channels", message.samples * channels, 1,
-                               kMostValues);
+                  requireRange("samples times channels", message.samples * channels, 1, kMaxValues);
                   requireLength(name, values.size(), message.samples * channels);
                 });
     visit.along(TWIN_FIELD(value), TWIN_FIELD(valid), "", each(requireFlag));
@@ -65,7 +64,7 @@ struct Measurement {
 
  private:
   static void requireChannels(const char* field, const std::vector<std::string>& names) {
-    requireRange(field, static_cast<std::int64_t>(names.size()), 1, kMostChannels);
+    requireRange(field, static_cast<std::int64_t>(names.size()), 1, kMaxChannels);
     each(requireName)(field, names);
     std::vector<std::string> sorted = names;
     std::sort(sorted.begin(), sorted.end());

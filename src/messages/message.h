@@ -22,7 +22,7 @@
 
 namespace whirl_twin::state {
 
-// What goes to a controller in another process, and what it answers.
+// Samples sent to a controller in another process, and its answers.
 
 struct ControllerMeasurement {
   static constexpr MessageKind kKind{"sample", "ControllerMeasurement", "controllers/*/measurement",
@@ -30,8 +30,8 @@ struct ControllerMeasurement {
 
   Instant at;  ///< step: the index of the sample
   std::string controller;
-  std::vector<double> values;  ///< of what it measures
-  std::int64_t run = 0;        ///< of simulated time: another after each reset
+  std::vector<double> values;  ///< of its measured quantities
+  std::int64_t run = 0;        ///< number of the run of simulated time: changes at each reset
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -47,8 +47,8 @@ struct ControllerCommand {
 
   Instant at;  ///< of the sample that it answers
   std::string controller;
-  std::vector<double> values;  ///< of what it acts on
-  std::int64_t run = 0;        ///< of the sample; 0: not told
+  std::vector<double> values;  ///< of its outputs
+  std::int64_t run = 0;        ///< of the sample; 0: unknown
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -62,7 +62,7 @@ struct ControllerCommand {
 
 namespace whirl_twin {
 
-/// Whatever the twin can say, or be told.
+/// Any message that the twin publishes or receives.
 using Message =
     std::variant<state::WhirlState, state::PendulumState, state::DriveState, state::MotorState,
                  state::EnsembleState, state::StabilityMargin, state::ParameterChange,

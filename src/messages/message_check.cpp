@@ -23,7 +23,7 @@ void requireName(const char* field, const std::string& name) {
   if (!isLegalName(name)) {
     throw RejectedMessage(fmt::format(
         "{}: expected a letter and then letters, digits or _, at most {} of them, found {}", field,
-        kMaxNameLength, quoted(name)));
+        kMaxNameLength, inQuotes(name)));
   }
 }
 
@@ -34,7 +34,7 @@ void requirePath(const char* field, const std::string& path) {
                    [](char c) { return isNameCharacter(c) || c == '[' || c == ']' || c == '.'; })) {
     throw RejectedMessage(
         fmt::format("{}: expected the path of a parameter such as discs[1].mass, found {}", field,
-                    quoted(path)));
+                    inQuotes(path)));
   }
 }
 
@@ -56,13 +56,13 @@ void requireText(const char* field, const std::string& text) {
 void requireDirection(const char* field, const std::string& direction) {
   if (direction != "forward" && direction != "backward") {
     throw RejectedMessage(
-        fmt::format("{}: expected forward or backward, found {}", field, quoted(direction)));
+        fmt::format("{}: expected forward or backward, found {}", field, inQuotes(direction)));
   }
 }
 
 void requireCoordinateUnit(const char* field, const std::string& unit) {
   if (unit != "m" && unit != "rad") {
-    throw RejectedMessage(fmt::format("{}: expected m or rad, found {}", field, quoted(unit)));
+    throw RejectedMessage(fmt::format("{}: expected m or rad, found {}", field, inQuotes(unit)));
   }
 }
 

@@ -1,33 +1,34 @@
-// What is asked of a message before the twin believes it: names that are names, numbers that are
-// possible, arrays of one length. A message that fails is rejected with a sentence, never used in
-// part. LCM and ROS messages go through the same questions.
+// Validity checks of a received message before the twin uses it: valid names, numbers in range,
+// arrays of equal length. A message that fails is rejected as a whole, with an error text. LCM and
+// ROS messages pass the same checks.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 
 namespace whirl_twin {
 
-/// The latest stamp [ns] that a ROS header carries: it has 32 bits of seconds.
+/// The latest stamp [ns] that fits into a ROS header: it has 32 bits of seconds.
 inline constexpr std::int64_t kMaxStamp = 4294967295LL * 1000000000LL + 999999999LL;
 
-/// A message that is not to be used; what() says why.
-class RejectedMessage : public Refusal {
+/// A message that must not be used; what() gives the reason.
+class RejectedMessage : public InputError {
  public:
-  using Refusal::Refusal;
+  using InputError::InputError;
 };
 
 /// The 64-bit utime of LCM [us] for a simulated time [s].
 std::int64_t utimeOf(double time);
 
-// Each throws RejectedMessage unless its condition holds; `field` is the message's own name for it.
+// Each throws RejectedMessage unless its condition is true; `field` is the message's own name for
+// it.
 void requireName(const char* field, const std::string& name);
-/// The path of a number among parameters: a name with `[row]`, `[column]` or `.name` behind it, as
-/// in discs[1].mass.
+/// The path of a number among parameters: a name followed by `[row]`, `[column]` or `.name`, as in
+/// discs[1].mass.
 void requirePath(const char* field, const std::string& path);
 /// UTF-8 without control characters, at most 1000 bytes.
 void requireText(const char* field, const std::string& text);

@@ -1,4 +1,4 @@
-// The monitor's heartbeat: that it is there, how old its verdicts are, and what they cost.
+// The monitor's heartbeat, with the age of its verdicts and its processor load.
 #pragma once
 
 #include <cmath>
@@ -12,15 +12,15 @@
 
 namespace whirl_twin {
 
-// Whether the monitor is still there, for those who show what it said: it beats once a second of
-// wall time. One that was never heard is not missed, for a twin may run without.
+// Heartbeat supervision of the monitor, for displays of its results: one heartbeat per second of
+// wall time. No timeout is reported before the first heartbeat: a twin may run without a monitor.
 
 class MonitorPulse {
  public:
   void beat(double wall_time) { heard_at_ = wall_time; }
 
-  /// At wall_time [s]: "no message from the monitor for 5 s: nothing is monitored"; "" while it
-  /// beats.
+  /// At wall_time [s]: "no message from the monitor for 5 s: nothing is monitored"; "" without a
+  /// timeout.
   std::string silence(double wall_time) const {
     if (!heard_at_ || std::fabs(wall_time - *heard_at_) <= kPatience) {
       return "";
@@ -43,16 +43,18 @@ namespace whirl_twin::state {
 struct MonitorStatus {
   static constexpr MessageKind kKind{"monitor", "MonitorStatus", "monitor", MessageKind::kJudged};
 
-  Instant at;                ///< of the newest state that came; stamp: of this message
-  bool paused = false;       ///< the simulation says that it is held
-  double load = 0.0;         ///< [-], part of one core that judging took in the last second
+  Instant at;                ///< of the newest state received; stamp: of this message
+  bool paused = false;       ///< the simulation reports that it is paused
+  double load = 0.0;         ///< [-], fraction of one core used by evaluations in the last second
   std::int64_t alerts = 0;   ///< active
   std::int64_t dangers = 0;  ///< of them, of severity DANGER
   // One entry a system.
   std::vector<std::string> system;
-  std::vector<double> verdict_age;  ///< [s], wall time since its state came; NaN: none yet
-  std::vector<std::string> not_ok;  ///< why what comes from it cannot be judged; "": it can
-  std::vector<double> inhibited;    ///< [s], wall time that its alerts are still held back; else 0
+  std::vector<double> verdict_age;  ///< [s], wall time since the arrival of the state evaluated;
+                                    ///< NaN: none yet
+  std::vector<std::string> not_ok;  ///< why data from it cannot be evaluated; "": they can
+  std::vector<double> inhibited;    ///< [s], wall time for which its alerts remain inhibited; else
+                                    ///< 0
 
   template <class Visit>
   static void fields(Visit& visit) {

@@ -29,7 +29,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-/// A character that a terminal or a reader's eye is led by instead of seeing it.
+/// A character with an effect on the terminal or text direction instead of a glyph.
 bool isObeyed(unsigned code) {
   const auto within = [code](unsigned first, unsigned last) {
     return code >= first && code <= last;
@@ -60,7 +60,7 @@ bool isLegalName(const std::string& name) {
 
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates) {
   std::string nearest;
-  if (name.size() > kLongestShown) {
+  if (name.size() > kMaxShown) {
     return nearest;
   }
   std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
@@ -126,7 +126,7 @@ std::string printableLines(std::string_view text) {
   return clean;
 }
 
-std::string quoted(const std::string& text) {
+std::string inQuotes(const std::string& text) {
   return "'" + printable(text) + "'";
 }
 

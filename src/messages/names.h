@@ -1,4 +1,5 @@
-// Names that users give and read: which are legal, which was meant, and text made fit to be shown.
+// Names in user input and output: validity, suggestions for misspelled names, and escaping of text
+// for display.
 #pragma once
 
 #include <cstddef>
@@ -25,20 +26,20 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
 /// "; did you mean 'NEAREST'?", or, without a near one, "; there are: ALL".
 std::string hint(const std::string& name, const std::vector<std::string>& candidates);
 
-/// Bytes of the character that begins at `at`, in UTF-8; 0 where there is none (RFC 3629: no
-/// overlong forms, no surrogates, nothing beyond U+10FFFF), or one that is not shown but obeyed:
-/// control characters (C0, DEL, C1), breaks of lines, and marks that turn the direction of text.
+/// Length in bytes of the printable UTF-8 character at `at`; 0 where there is none (RFC 3629: no
+/// overlong forms, no surrogates, nothing beyond U+10FFFF), or a control character (C0, DEL, C1), a
+/// line break or a mark that changes the direction of text.
 std::size_t printableLength(std::string_view text, std::size_t at);
 
-/// Bytes of a text from elsewhere that a message shows.
-inline constexpr std::size_t kLongestShown = 60;
+/// Maximum number of bytes of external text in a message.
+inline constexpr std::size_t kMaxShown = 60;
 
-/// The first bytes of a text on one line, with \x1b for a byte that printableLength() refuses.
-std::string printable(const std::string& text, std::size_t longest = kLongestShown);
+/// The first bytes of a text on one line, with \x1b for a byte that printableLength() rejects.
+std::string printable(const std::string& text, std::size_t longest = kMaxShown);
 /// The same in quotes.
-std::string quoted(const std::string& text);
+std::string inQuotes(const std::string& text);
 
-/// All of a text of several lines, likewise; line ends and tabs stay.
+/// A whole text of several lines, likewise; line ends and tabs are kept.
 std::string printableLines(std::string_view text);
 
 }  // namespace whirl_twin

@@ -1,4 +1,4 @@
-// What of a whirl turns with the shaft, and what does not.
+// The synchronous components (orders) of a whirl and its non-synchronous residual.
 #pragma once
 
 #include <string>
@@ -9,30 +9,31 @@
 
 namespace whirl_twin::state {
 
-/// A rotor's whirl as its motion over some turns, not as this instant shows it: orders by a
-/// tracking filter (signal/order_filter.h), lines that no order explains, precession of the motion
-/// about its mean.
+/// A rotor's whirl, analysed over some turns: orders by a tracking filter (signal/order_filter.h),
+/// non-synchronous components, precession of the motion about its mean.
 struct OrderState {
   static constexpr MessageKind kKind{"orders", "OrderState", "*/orders"};
 
   Instant at;
   std::string system;
-  bool valid = false;         ///< the shaft has turned often enough for orders
-  double delay = 0.0;         ///< [s], what follows held so long before
-  double window = 0.0;        ///< [s], that it is told from
-  double speed = 0.0;         ///< [rad/s], of the shaft, then
+  bool valid = false;         ///< the shaft has made enough turns for orders
+  double delay = 0.0;         ///< [s], delay of the following values
+  double window = 0.0;        ///< [s], length of the data used
+  double speed = 0.0;         ///< [rad/s], of the shaft, at that time
   double mean_x = 0.0;        ///< [m], where the orbit is centred: sag, gap
   double mean_y = 0.0;        ///< [m]
   double peak_to_peak = 0.0;  ///< [m], the larger of those along x and y
   double precession = 0.0;    ///< [-], 1 with the rotation, -1 against it, 0 on a line
   bool forward = true;        ///< the motion runs in the direction of rotation
-  double noise = 0.0;         ///< [m], root mean square of what is neither order nor line
+  double noise = 0.0;         ///< [m], root mean square of the residual beside orders and
+                              ///< non-synchronous components
   std::vector<double> order;  ///< [-], times the angle of the shaft
   std::vector<double> forward_amplitude;   ///< [m], of each
-  std::vector<double> forward_lag;         ///< [rad], behind the phase mark, -pi..pi
+  std::vector<double> forward_lag;         ///< [rad], lag relative to the phase reference, -pi..pi
   std::vector<double> backward_amplitude;  ///< [m]
   std::vector<double> backward_lag;        ///< [rad]
-  std::vector<double> deviation;           ///< [m], of an amplitude, by noise and by change
+  std::vector<double> deviation;           ///< [m], standard deviation of an amplitude, from noise
+                                           ///< and change
   std::vector<double> line_frequency;      ///< [rad/s], largest first
   std::vector<double> line_ratio;          ///< [-], to the speed
   std::vector<double> line_forward;        ///< [m], amplitude in the direction of rotation

@@ -1,5 +1,5 @@
-// The scene that a twin runs, as text: for those who have nothing but what it sends. What is
-// changed live since is told by ParameterChange.
+// The scene that a twin runs, as text, for receivers that only have its messages. Later live
+// changes are published as ParameterChange.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace whirl_twin::state {
 struct SceneText {
   static constexpr MessageKind kKind{"scene", "SceneText", "scene", MessageKind::kLatched};
 
-  Instant at;                     ///< when it was told
+  Instant at;                     ///< when it was published
   std::string source;             ///< the file, where it is known
   std::vector<std::string> line;  ///< YAML, as a scene file has it
 

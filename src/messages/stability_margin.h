@@ -1,5 +1,5 @@
-// What the monitor says of one system at one instant: the verdict, how far it is from instability,
-// and the critical speeds around the present speed.
+// The monitor's evaluation of one system at one instant: the verdict, its distance from
+// instability, and the critical speeds next to the present speed.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace whirl_twin::state {
 
-/// A critical speed seen from the present running speed (API 617/684).
+/// A critical speed relative to the present running speed (API 617/684).
 struct CriticalSpeedMargin {
   double speed = 0.0;                       ///< [rad/s], of the peak unbalance response
   std::string direction;                    ///< "forward" or "backward"
@@ -33,7 +33,7 @@ struct CriticalSpeedMargin {
   }
 };
 
-/// The whole statement; fields as in whirl_twin/StabilityMargin.
+/// The complete result; fields as in whirl_twin/StabilityMargin.
 struct StabilityMargin {
   static constexpr MessageKind kKind{"stability", "StabilityMargin", "*/stability",
                                      MessageKind::kJudged};
@@ -56,44 +56,44 @@ struct StabilityMargin {
   double log_decrement = 0.0;      ///< [-]; NaN when overdamped
   double instability_speed = 0.0;  ///< [rad/s]; NaN: none found
   std::vector<CriticalSpeedMargin> critical_speeds;
-  // Where the verdict changes, going from the present speed; NaN: nowhere.
+  // Speeds at which the verdict changes, starting from the present speed; NaN: none.
   double threshold_below = std::numeric_limits<double>::quiet_NaN();  ///< [rad/s], nearest below
   double threshold_above = std::numeric_limits<double>::quiet_NaN();  ///< [rad/s], nearest above
-  double age = std::numeric_limits<double>::quiet_NaN();  ///< [s], wall time; NaN: not told
-  // The number of the system that, changed alone, is nearest to the loss of stability; "": none is
-  // known, within ten times its value, or it is not stable now.
+  double age = std::numeric_limits<double>::quiet_NaN();  ///< [s], wall time; NaN: unknown
+  // The critical parameter: the one whose change alone leads to instability with the smallest
+  // relative change; "": none within ten times its value, or the system is unstable now.
   std::string nearest_parameter;
-  double nearest_change = std::numeric_limits<double>::quiet_NaN();  ///< [-], of its value
+  double nearest_change = std::numeric_limits<double>::quiet_NaN();  ///< [-], relative to its value
   double nearest_value = std::numeric_limits<double>::quiet_NaN();   ///< where it is lost
   std::string nearest_loss;  ///< divergence, whirl, flutter, no_motion
   double nearest_frequency = std::numeric_limits<double>::quiet_NaN();      ///< [rad/s]
   double nearest_time = std::numeric_limits<double>::quiet_NaN();           ///< [s], simulated
   double cross_coupling_margin = std::numeric_limits<double>::quiet_NaN();  ///< [N/m]
-  // The eigenvalues beside Routh's test.
+  // Cross-check of Routh's test by the eigenvalues.
   std::uint32_t right_by_eigenvalues = 0;
-  bool routh_disagrees = false;  ///< by more than rounding explains
-  // Of a system whose scene says how well its numbers are known (`spread` without a count).
-  std::uint32_t members = 0;         ///< drawn within the spread and judged; 0: none
-  std::uint32_t members_beyond = 0;  ///< of them decay slower than the setting, or grow
+  bool routh_disagrees = false;  ///< by more than rounding
+  // Of a system whose scene specifies parameter tolerances (`spread` without a count).
+  std::uint32_t members = 0;         ///< samples drawn within the tolerances and evaluated; 0: none
+  std::uint32_t members_beyond = 0;  ///< samples that decay more slowly than the setting, or grow
   double lowest_decay_rate = std::numeric_limits<double>::quiet_NaN();  ///< [1/s], found within it
-  bool stable_throughout = false;  ///< by Kharitonov's theorem; false: it does not tell
-  // Up to which amplitude log_decrement is within a tenth of that of small motions.
-  std::string log_decrement_coordinate;  ///< whose; "whirl": a rotor's radius; "": not known
+  bool stable_throughout = false;  ///< by Kharitonov's theorem; false: not proven
+  // Amplitude up to which log_decrement is within a tenth of that of the linearized motion.
+  std::string log_decrement_coordinate;  ///< its coordinate; "whirl": a rotor's radius; "": unknown
   double log_decrement_amplitude =
-      std::numeric_limits<double>::quiet_NaN();  ///< [rad] or [m]; infinite: as far as was looked
-  // Of a rotor that is reduced to a few shapes: the rotor that they were taken from. NaN: of
-  // another system.
+      std::numeric_limits<double>::quiet_NaN();  ///< [rad] or [m]; infinite: stable in the whole
+                                                 ///< range searched
+  // Of a reduced-order rotor: results of the full-order model. NaN: of any other system.
   double unreduced_decay_rate = std::numeric_limits<double>::quiet_NaN();     ///< [1/s]
   double unreduced_log_decrement = std::numeric_limits<double>::quiet_NaN();  ///< [-]
   bool reduction_disagrees = false;  ///< one of them grows and the other does not
-  // Not sent: what alerts add in words.
+  // Not transmitted: for the texts of alerts.
   enum class About { kEquilibrium, kPeriodicMotion, kMeanLoads };
   About judged_about = About::kEquilibrium;
 
   template <class Visit>
   static void fields(Visit& visit) {
-    // A polynomial has one coefficient more than it has roots. Multipliers of a periodic motion,
-    // and the roots of many coordinates, come without one: two of each coordinate.
+    // A polynomial has one coefficient more than roots. Multipliers of a periodic motion, and the
+    // roots of many coordinates, have no polynomial: two per coordinate.
     const auto roots = [](const char* name, std::int64_t value, const auto& message) {
       requireRange(name, value, 0,
                    static_cast<std::int64_t>(
@@ -115,7 +115,7 @@ struct StabilityMargin {
     visit(TWIN_FIELD(decay_rate), "1/s");
     visit.numbers("-", TWIN_FIELD(damping_ratio), TWIN_FIELD(log_decrement));
     visit(TWIN_FIELD(instability_speed), "rad/s");
-    // NaN and false say the same thing twice: none was found.
+    // NaN and false are redundant: none was found.
     visit.derived(TWIN_FIELD(instability_speed_valid),
                   [](const auto& message) { return !std::isnan(message.instability_speed); });
     visit.rows(TWIN_FIELD(critical_speeds), TWIN_FIELD(critical_speeds));

@@ -1,6 +1,6 @@
-// What the twin tells the world of one step: plain values, before they become ROS messages or LCM
-// types. Units and meanings stand beside each field; a value that can be undefined is NaN then.
-// (In a namespace of their own: the generated ROS messages are whirl_twin::WhirlState and so on.)
+// The twin's output of one step as plain values, before conversion to ROS messages or LCM types.
+// Units and meaning are documented at each field; an undefined value is NaN. (They have a separate
+// namespace because the generated ROS messages are whirl_twin::WhirlState and so on.)
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace whirl_twin::state {
 struct Instant {
   std::int64_t step = 0;   ///< steps since the start
   double time = 0.0;       ///< [s], simulated
-  std::int64_t stamp = 0;  ///< [ns], what the ROS header carries: wall clock, or simulated time
+  std::int64_t stamp = 0;  ///< [ns], stamp of the ROS header: wall clock, or simulated time
 };
 
 /// A rotor's disc centre in the frame of its bearings.
@@ -27,7 +27,8 @@ struct WhirlState {
   Instant at;
   std::string system;
   double radius = 0.0;           ///< [m]
-  double phase = 0.0;            ///< [rad], unwrapped lag of the whirl behind the phase mark
+  double phase = 0.0;            ///< [rad], unwrapped lag of the whirl relative to the phase
+                                 ///< reference
   bool phase_valid = false;      ///< the radius is large enough for an angle
   double whirl_angle = 0.0;      ///< [rad], -pi..pi
   double whirl_rate = 0.0;       ///< [rad/s]
@@ -37,7 +38,8 @@ struct WhirlState {
   double y = 0.0;                ///< [m]
   double x_rate = 0.0;           ///< [m/s]
   double y_rate = 0.0;           ///< [m/s]
-  double orbit_major = 0.0;      ///< [m], semi-major axis of the orbit if all were synchronous
+  double orbit_major = 0.0;      ///< [m], semi-major axis of the orbit, assuming purely synchronous
+                                 ///< motion
   double orbit_minor = 0.0;      ///< [m], semi-minor axis
   bool forward = true;           ///< that orbit runs in the direction of rotation
   double energy_residual = 0.0;  ///< [-]
@@ -110,8 +112,8 @@ struct DriveState {
   }
 };
 
-/// A motor that turns a rotor, and where its work goes: motor_work = dissipated_work + what
-/// `energy` has gained, as well as the energy residual says.
+/// A motor that drives a rotor, and the balance of its work: motor_work = dissipated_work + the
+/// increase of `energy`, up to the energy residual.
 struct MotorState {
   static constexpr MessageKind kKind{"motor", "MotorState", "drives/*/motor", MessageKind::kSeries};
 
@@ -141,15 +143,15 @@ struct MotorState {
   }
 };
 
-/// The spread of an ensemble: a system `count` times over, each with parameters of its own. One
-/// entry per quantity: a rotor's radius, or the coordinates of any other model. Of the members that
-/// still run; the peaks are each member's largest magnitude since the start.
+/// The spread of an ensemble: `count` samples of a system, each with different parameters. One
+/// entry per quantity: a rotor's radius, or the coordinates of any other model. Only samples that
+/// still run count; the peaks are each sample's largest magnitude since the start.
 struct EnsembleState {
   static constexpr MessageKind kKind{"ensemble", "EnsembleState", "*/ensemble"};
 
   Instant at;
   std::string system;
-  std::int64_t count = 0;    ///< members
+  std::int64_t count = 0;    ///< samples
   std::int64_t running = 0;  ///< of them, not stopped
   std::vector<std::string> quantity;
   std::vector<std::string> unit;  ///< "m" or "rad"
@@ -181,14 +183,14 @@ struct EnsembleState {
   }
 };
 
-/// The parameters of a system from an instant on, and which of them changed then.
+/// The parameters of a system from an instant on, and those that changed then.
 struct ParameterChange {
   static constexpr MessageKind kKind{"parameter", "ParameterChange", "*/parameters",
                                      MessageKind::kLatched};
 
   Instant at;
   std::string system;
-  std::vector<std::string> names;    ///< every number: `damping`, `discs[1].mass`
+  std::vector<std::string> names;    ///< every parameter: `damping`, `discs[1].mass`
   std::vector<double> values;        ///< of each, in the units of the model
   std::vector<std::string> changed;  ///< some of `names`; none at the start
   std::vector<double> previous;      ///< values of those before

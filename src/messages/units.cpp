@@ -25,7 +25,7 @@ struct Definition {
   const char* meaning;  ///< in units defined before
 };
 
-constexpr std::size_t kRemembered = 1000;  // scales: units come over the network, too
+constexpr std::size_t kRemembered = 1000;  // scales: limited, because units arrive over the network
 constexpr std::array<const char*, 6> kBases = {"m", "s", "rad", "A", "K", "kg"};
 constexpr std::array<std::pair<const char*, double>, 12> kPrefixes = {{{"G", 1e9},
                                                                        {"M", 1e6},
@@ -75,7 +75,7 @@ constexpr std::array<Definition, 34> kDefinitions = {{{"g", "0.001 kg"},
                                                       {"reyn", "psi s"},
                                                       {"%", "0.01"}}};
 
-/// The library is not made for threads; nor is what it found.
+/// The library is not thread-safe; nor are its results.
 class Units {
  public:
   Units() {
@@ -120,7 +120,7 @@ class Units {
     return Unit(ut_parse(system_.get(), text.c_str(), UT_UTF8));
   }
 
-  /// 0 also of scales that do not begin at zero.
+  /// 0 also for scales with an offset.
   double converted(const std::string& unit, const std::string& wanted) const {
     const Unit from = parsed(unit), to = parsed(wanted);
     if (!from || !to || ut_are_convertible(from.get(), to.get()) == 0) {
@@ -141,7 +141,7 @@ Units& units() {
   return all;
 }
 
-/// No number and no sum: "1/s" is a unit, "10", "-m" and "m + 1" are not.
+/// Excludes numbers and sums: "1/s" is a unit, "10", "-m" and "m + 1" are not.
 bool looksLikeUnit(const std::string& text) {
   const bool reciprocal = text.compare(0, 2, "1/") == 0;
   const std::size_t begin = reciprocal ? 2 : 0;

@@ -23,7 +23,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kMostModes = 30;
+constexpr int kMaxModes = 30;
 constexpr int kSketchParts = 32;
 
 /// [m] from the clamp: the ends of the parts that the beam is drawn in.
@@ -84,9 +84,9 @@ void requirePositive(const ParameterValues& values) {
     }
   }
   const double modes = values.at("modes");
-  if (!(modes >= 1.0 && modes <= kMostModes && modes == std::floor(modes))) {
+  if (!(modes >= 1.0 && modes <= kMaxModes && modes == std::floor(modes))) {
     throw SetupError(
-        "modes", fmt::format("must be a whole number from 1 to {}, found {}", kMostModes, modes));
+        "modes", fmt::format("must be a whole number from 1 to {}, found {}", kMaxModes, modes));
   }
 }
 
@@ -161,7 +161,7 @@ ModelInfo cantileverBeamInfo() {
       {"base_motion_frequency", "rad/s", Range::kNotNegative, "of the clamp", 0.0, ""}};
   info.variants = {{"", {}, true, false, linearMethodNames()}};
   info.variants[0].inputs = {forceAtTip(0)};
-  info.setUp = [](const ParameterValues& values, const Settings&, const Surroundings&) {
+  info.setUp = [](const ParameterValues& values, const Settings&, const ModelContext&) {
     return setUpCantilever(values);
   };
   return info;

@@ -40,7 +40,7 @@ ModelInfo doublePendulumInfo() {
                                            (isRelative(settings) && hasDrag(values, settings));
                                   });
   info.setUp = [plain = info.setUp](const ParameterValues& values, const Settings& settings,
-                                    const Surroundings& around) {
+                                    const ModelContext& around) {
     if (hasMotors(values, settings)) {
       requireRelative(settings);
     }

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "integration/excitation.h"
 #include "integration/jacobi_integral.h"
+#include "integration/step_context.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
 
@@ -13,7 +13,7 @@ namespace whirl_twin {
 /// Of dynamics in the fixed frame, or at constant speed in one that turns; `jacobi` as that of
 /// LinearRotorStepper.
 std::unique_ptr<Stepper> exactStepper(std::shared_ptr<const Dynamics> dynamics,
-                                      JacobiIntegral jacobi, const Excitation& excitation,
+                                      JacobiIntegral jacobi, const StepContext& excitation,
                                       double step, int substeps);
 
 }  // namespace whirl_twin

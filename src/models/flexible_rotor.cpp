@@ -17,8 +17,8 @@
 #include "analysis/rotor_statics.h"
 #include "integration/exponential.h"
 #include "mechanics/linear_rotor_dynamics.h"
-#include "mechanics/rotors/unreduced_rotor.h"
-#include "messages/refusal.h"
+#include "mechanics/rotors/full_order_rotor.h"
+#include "messages/input_error.h"
 #include "models/flexible_rotor_elements.h"
 #include "models/flexible_rotor_picture.h"
 #include "models/flexible_shaft_settings.h"
@@ -211,7 +211,7 @@ void requireFinite(const LinearRotor& rotor) {
 std::shared_ptr<const Dynamics> dynamicsOf(RotorDescription description, LinearRotor rotor) {
   try {
     return std::make_shared<const LinearRotorDynamics>(std::move(description), std::move(rotor));
-  } catch (const Refusal&) {
+  } catch (const InputError&) {
     throw SetupError("elements",
                      "must give every motion a mass above the rounding error of the others");
   }
@@ -231,8 +231,8 @@ std::vector<LocalForce> allForcesOf(const std::vector<PlacedMagnet>& magnets, st
 RotorAssembly assembled(const FlexibleShaft& shaft) {
   try {
     return RotorAssembly(shaft);
-  } catch (const Refusal& refusal) {
-    throw SetupError("elements", refusal.what());
+  } catch (const InputError& inputError) {
+    throw SetupError("elements", inputError.what());
   }
 }
 
@@ -243,19 +243,19 @@ const char* coordinatesInWords(const FlexibleShaft& shaft, const RotorAssembly& 
                                    : "four per node and two per pedestal";
 }
 
-std::shared_ptr<const UnreducedRotor> unreducedRotor(const RotorAssembly& assembly,
+std::shared_ptr<const FullOrderRotor> unreducedRotor(const RotorAssembly& assembly,
                                                      const Eigen::MatrixXd& shapes,
                                                      const FlexibleShaft& shaft,
                                                      const Settings& settings,
                                                      const std::vector<NodeElement>& elements) {
   const auto magnets = placed(nodeMagnets(settings, shaft.nodes()), assembly.stations());
-  return std::make_shared<const UnreducedRotor>(UnreducedRotor{
+  return std::make_shared<const FullOrderRotor>(FullOrderRotor{
       std::make_shared<const RotorAssembly>(assembly), shapes,
       allForcesOf(magnets, pushableNodes(shaft, assembly).size(), elements, shaft, assembly)});
 }
 
 ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& settings,
-                              const Surroundings& around) {
+                              const ModelContext& around) {
   FlexibleShaft shaft = flexibleShaft(values, settings, around.gravity);
   const int probe = probeNode(settings, shaft);
   shaft.pushed.push_back(probe);  // analyses put a cross-coupling there
@@ -276,7 +276,7 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
                     assembly.massive().size(), kNegligible));
   }
   double highest_speed = kInfinity;
-  std::shared_ptr<const UnreducedRotor> unreduced;
+  std::shared_ptr<const FullOrderRotor> unreduced;
   const std::string& modes = settings.choices.at("modes");
   if (modes == "0") {
     description.coordinates = nodeCoordinates(shaft, assembly);
@@ -315,7 +315,7 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
     try {
       setup = spinningRotorSetup(linear, std::move(forces),
                                  spinOf(shaft, assembly, values, *around.motor), fastest);
-    } catch (const Refusal&) {
+    } catch (const InputError&) {
       throw SetupError("unbalances",
                        "with a motor, each eccentricity must be less than the radius of gyration "
                        "of the rotating parts");

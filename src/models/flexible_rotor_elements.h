@@ -1,5 +1,5 @@
-// What the elements at a flexible rotor's nodes that are not linear are to it: forces on places of
-// its shaft and its pedestals, and what of them is linear.
+// Nonlinear elements at a flexible rotor's nodes: forces on its shaft and its pedestals, and their
+// linear part.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +22,8 @@ Eigen::MatrixXd directionsOf(const std::vector<LocalForce>& forces, Eigen::Index
 /// The shaft with what of these elements is linear.
 FlexibleShaft withDamping(FlexibleShaft shaft, const std::vector<NodeElement>& elements);
 
-/// The rotor as it runs, for the choice of its shapes: on journal bearings as stiff and as damped
-/// as they are under an even share of its weight.
+/// The rotor for the choice of its retained modes: on journal bearings linearized under an equal
+/// share of its weight.
 LinearRotor inItsFilms(FlexibleShaft shaft, const std::vector<NodeElement>& elements);
 
 }  // namespace whirl_twin

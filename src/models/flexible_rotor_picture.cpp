@@ -12,7 +12,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr int kConeRods = 4;
-constexpr double kSeal = 0.1;        // of the stiffest bearing: what is less carries nothing
+constexpr double kSeal = 0.1;        // of the stiffest bearing: softer ones carry no load
 constexpr double kSealRing = 1.35;   // of the shaft's radius
 constexpr double kSealWidth = 0.01;  // of the shaft's length
 

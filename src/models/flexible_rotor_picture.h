@@ -1,5 +1,6 @@
-// A flexible rotor from the side: its bent shaft, discs and bearings, to scale. What holds it by
-// less than a tenth of the stiffest bearing is a seal, a ring that stands still around the shaft.
+// A flexible rotor from the side: its bent shaft, discs and bearings, to scale. A support of less
+// than a tenth of the stiffness of the stiffest bearing is drawn as a seal, a stationary ring
+// around the shaft.
 #pragma once
 
 #include <Eigen/Core>

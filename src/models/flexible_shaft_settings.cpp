@@ -14,8 +14,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kMostElements = 100;
-constexpr double kLongestShaft = 100.0;  // [m], of a machine
+constexpr int kMaxElements = 100;
+constexpr double kMaxShaft = 100.0;  // [m], of a machine
 // Ip / Id of a disc without thickness is 2, of any other less; and data sheets round.
 constexpr double kThinnest = 2.0 * 1.01;
 constexpr double kSameDiameter = 1.0e-9;
@@ -51,10 +51,10 @@ std::vector<ShaftSection> elementsOf(const Settings& settings, const ShaftMateri
     requireBelow(ring.inner_end, ring.outer_end, key, "_end");
     const double count = row.at("count");
     const double all = static_cast<double>(elements.size()) + count;
-    if (all > kMostElements) {
+    if (all > kMaxElements) {
       throw SetupError(
           key + ".count",
-          fmt::format("must give at most {} elements in total, found {}", kMostElements, all));
+          fmt::format("must give at most {} elements in total, found {}", kMaxElements, all));
     }
     for (int part = 0; part < static_cast<int>(count); ++part) {
       ShaftSection section = ring.section(row.at("length"), part / count, (part + 1) / count);
@@ -104,7 +104,7 @@ std::vector<DampingRatio> modalDampingOf(const Settings& settings) {
   return ratios;
 }
 
-/// The room that an element and the sleeves on it take.
+/// The cross-section of an element with its sleeves.
 Ring ringOf(const ShaftSection& section) {
   return {section.inner_diameter, section.outer_diameter,
           section.inner_diameter + section.inner_growth,
@@ -341,7 +341,7 @@ std::vector<std::string> shaftNotes(const ParameterValues& values, const Setting
     }
   }
   const double length = shaft.positions().back();
-  if (length > kLongestShaft) {
+  if (length > kMaxShaft) {
     notes.push_back(fmt::format("the shaft is {:.6g} m long; lengths are in m", length));
   }
   double thickest = 0.0;

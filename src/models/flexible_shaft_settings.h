@@ -9,18 +9,19 @@
 
 namespace whirl_twin {
 
-/// What a scene may give of a flexible rotor's shaft, by tables.
+/// Settings of a flexible rotor's shaft in a scene, by tables.
 std::vector<SettingInfo> flexibleShaftSettings();
 
 /// Throws SetupError for what does not fit together: where, what was expected, what was found.
 FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& settings,
                             double gravity);
 
-/// What is unusual about it, and what it takes for given.
+/// Notes on unusual values and on assumptions.
 std::vector<std::string> shaftNotes(const ParameterValues& values, const Settings& settings,
                                     const FlexibleShaft& shaft);
 
-/// The nodes that have a whirl of their own. Throws SetupError for one that is not there, or twice.
+/// The nodes whose whirl is published separately. Throws SetupError for a missing or duplicate
+/// node.
 std::vector<int> publishedNodes(const Settings& settings, const FlexibleShaft& shaft);
 
 }  // namespace whirl_twin

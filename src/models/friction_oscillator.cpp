@@ -17,7 +17,7 @@ ModelInfo frictionOscillatorInfo() {
                                               return values.at("regularization") > 0.0;
                                             });
   info.setUp = [plain = info.setUp](const ParameterValues& values, const Settings& settings,
-                                    const Surroundings& around) {
+                                    const ModelContext& around) {
     const double half = values.at("half_spacing");
     const double reach = half - values.at("friction_coefficient") * values.at("height");
     if (std::fabs(reach) <= 4.0e-16 * half) {  // no more than rounding

@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-/// The small form by its matrices: their exact step knows harmonic loads.
+/// The linearized form by its matrices: their exact step supports harmonic loads.
 ModelSetup smallSetup(const ParameterValues& values, double gravity) {
   const SmallHingedBeam beam = makeModel<SmallHingedBeam>(values, gravity);
   const LagrangianDynamics<SmallHingedBeam> dynamics(beam);
@@ -28,7 +28,7 @@ ModelSetup smallSetup(const ParameterValues& values, double gravity) {
   model.circulatory = l.circulatory;
   if (beam.load_amplitude != 0.0) {
     // At t = 0 the load is at its amplitude.
-    model.forces.push_back({dynamics.unbalancedForce(rest, rest, {}), beam.load_frequency, 0.0});
+    model.forces.push_back({dynamics.residualForce(rest, rest, {}), beam.load_frequency, 0.0});
   }
   model.inputs = dynamics.inputs();
   model.sketch = [beam](const Eigen::VectorXd& q, double time) {
@@ -52,7 +52,7 @@ ModelInfo hingedBeamInfo() {
                            {},
                            {}});
   info.setUp = [finite = info.setUp](const ParameterValues& values, const Settings& settings,
-                                     const Surroundings& around) {
+                                     const ModelContext& around) {
     const auto geometry = settings.choices.find("geometry");
     return geometry != settings.choices.end() && geometry->second == "small"
                ? smallSetup(values, around.gravity)

@@ -11,7 +11,7 @@
 
 namespace whirl_twin {
 
-ModelSetup setUpJournalJeffcott(const ParameterValues& values, const Surroundings& around) {
+ModelSetup setUpJournalJeffcott(const ParameterValues& values, const ModelContext& around) {
   if (around.motor) {
     return setUpSpinning<JournalJeffcottRotor>(values, around);
   }

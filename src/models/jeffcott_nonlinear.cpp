@@ -4,7 +4,7 @@
 
 namespace whirl_twin {
 
-ModelSetup setUpNonlinearJeffcott(const ParameterValues& values, const Surroundings& around) {
+ModelSetup setUpNonlinearJeffcott(const ParameterValues& values, const ModelContext& around) {
   return setUpEither<NonlinearJeffcottRotor>(values, around);
 }
 

@@ -35,7 +35,7 @@ bool isNonlinear(const ParameterValues& values) {
 }
 
 /// What fits in each range but not together.
-void check(const ParameterValues& values, const Surroundings& around) {
+void check(const ParameterValues& values, const ModelContext& around) {
   if (around.motor) {
     need(values, "polar_inertia", "kg m^2", "a motor");
   }
@@ -67,7 +67,7 @@ void check(const ParameterValues& values, const Surroundings& around) {
 
 /// On a magnet at the disc.
 ModelSetup setUpLevitated(const ParameterValues& values, const Settings& settings,
-                          const Surroundings& around) {
+                          const ModelContext& around) {
   const std::vector<TableRow>& rows = magnetRows(settings);
   if (rows.size() != 1) {
     throw SetupError("magnets", fmt::format("must be one map, at the disc, found {}", rows.size()));
@@ -84,7 +84,7 @@ ModelSetup setUpLevitated(const ParameterValues& values, const Settings& setting
       plain, {{rotorMagnet(rows[0], "magnets[0]"), "", disc.along_x, disc.along_y}});
 }
 
-ModelSetup setUpLinear(const ParameterValues& values, const Surroundings& around) {
+ModelSetup setUpLinear(const ParameterValues& values, const ModelContext& around) {
   if (around.motor) {
     return setUpSpinningJeffcott(values, around);
   }
@@ -111,10 +111,10 @@ ModelInfo jeffcottRotorInfo() {
   info.variants.push_back(journalJeffcottVariant("bearing_length > 0"));
   info.variants.push_back(spinningJeffcottVariant("a motor"));
   info.setUp = [](const ParameterValues& values, const Settings& settings,
-                  const Surroundings& around) {
+                  const ModelContext& around) {
     check(values, around);
     const auto gravity_on = settings.choices.find("gravity_on_shaft");
-    Surroundings felt = around;
+    ModelContext felt = around;
     if (gravity_on == settings.choices.end() || gravity_on->second != "true") {
       felt.gravity = 0.0;
     }

@@ -4,7 +4,7 @@
 
 namespace whirl_twin {
 
-ModelSetup setUpSpinningJeffcott(const ParameterValues& values, const Surroundings& around) {
+ModelSetup setUpSpinningJeffcott(const ParameterValues& values, const ModelContext& around) {
   return setUpSpinning<JeffcottRotor>(values, around);
 }
 

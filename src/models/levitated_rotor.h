@@ -1,5 +1,6 @@
-// A rotor of a fixed number of coordinates on magnetic bearings: its matrices with what the magnets
-// add to them, stepped as a linear rotor, with forces at places where the magnets are not linear.
+// A rotor of a fixed number of coordinates on active magnetic bearings: its matrices include the
+// linear part of the magnets; it is stepped as a linear rotor, with nodal forces for nonlinear
+// magnets.
 #pragma once
 
 #include <memory>
@@ -10,7 +11,7 @@
 
 namespace whirl_twin {
 
-/// `plain`: the rotor without magnets, linear. Magnets have stations of their own, `magnet_SUFFIX`.
+/// `plain`: the rotor without magnets, linear. Each magnet has a station `magnet_SUFFIX`.
 ModelSetup levitatedRotorSetup(std::shared_ptr<const Dynamics> plain,
                                const std::vector<PlacedMagnet>& magnets);
 

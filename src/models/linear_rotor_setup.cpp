@@ -23,7 +23,7 @@ namespace whirl_twin {
 ModelSetup linearSetup(LinearModel model) {
   const auto dynamics = std::make_shared<const LinearDynamics>(std::move(model));
   return {dynamics, linearMethodNames(),
-          [dynamics](const std::string& integrator, const Excitation& excitation, double step,
+          [dynamics](const std::string& integrator, const StepContext& excitation, double step,
                      int substeps) {
             return std::make_unique<LinearStepper>(dynamics->linearModel(), integrator, step,
                                                    substeps, excitation.inputs);
@@ -33,14 +33,14 @@ ModelSetup linearSetup(LinearModel model) {
 namespace {
 
 constexpr double kBeyond = 1.05;      // of the motor's highest speed: a whirl swings the spin, too
-constexpr double kBackwards = -0.02;  // of it: a heavy rotor that stands may swing back
-// What a step takes besides its products, in accelerations of a pendulum of two coordinates.
+constexpr double kBackwards = -0.02;  // of it: a heavy rotor at standstill may swing back
+// Cost of a step besides its products, in accelerations of a pendulum of two coordinates.
 constexpr double kForcedStep = 80.0;
 constexpr double kSpinningStep = 150.0;
 constexpr double kNoLimit = 9.0e5;  // [rad/s], highestSpeed() of a motor without one is beyond
 
 /// Speeds [rad/s] that a rotor on its motor may come to.
-std::pair<double, double> speedsOn(const Motor& motor, const Excitation& excitation,
+std::pair<double, double> speedsOn(const Motor& motor, const StepContext& excitation,
                                    std::size_t torque, double highest) {
   const double start = excitation.drive.at(0.0).speed;
   const double of_motor = kBeyond * highestSpeed(motor);
@@ -60,7 +60,7 @@ double evaluationCost(const Dynamics& dynamics, double besides) {
 }  // namespace
 
 std::unique_ptr<Stepper> exactStepper(std::shared_ptr<const Dynamics> dynamics,
-                                      JacobiIntegral jacobi, const Excitation& excitation,
+                                      JacobiIntegral jacobi, const StepContext& excitation,
                                       double step, int substeps) {
   return std::make_unique<LinearRotorStepper>(std::move(dynamics), std::move(jacobi), excitation,
                                               step, substeps);
@@ -76,7 +76,7 @@ ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics,
   setup.dynamics = dynamics;
   setup.integrators = {Exponential<1>::kName};
   setup.system = [dynamics, forces = std::move(forces)](
-                     const std::string&, const Excitation& excitation, double step, int substeps) {
+                     const std::string&, const StepContext& excitation, double step, int substeps) {
     return std::make_unique<LinearRotorStepper>(dynamics, JacobiIntegral(), excitation, step,
                                                 substeps, forces);
   };
@@ -95,7 +95,7 @@ ModelSetup spinningRotorSetup(std::shared_ptr<const Dynamics> held, std::vector<
   ModelSetup setup;
   setup.dynamics = dynamics;
   setup.integrators = {Exponential<1>::kName};
-  setup.system = [dynamics, highest_speed](const std::string&, const Excitation& excitation,
+  setup.system = [dynamics, highest_speed](const std::string&, const StepContext& excitation,
                                            double step, int substeps) {
     return std::make_unique<SpinningRotorStepper>(
         dynamics, excitation, step, substeps,
@@ -109,7 +109,7 @@ ModelSetup spinningRotorSetup(std::shared_ptr<const Dynamics> held, std::vector<
 
 ModelSetup withExactRunUps(ModelSetup setup, JacobiIntegral jacobi) {
   setup.system = [dynamics = setup.dynamics, plain = setup.system, jacobi](
-                     const std::string& integrator, const Excitation& excitation, double step,
+                     const std::string& integrator, const StepContext& excitation, double step,
                      int substeps) {
     if (integrator != Exponential<1>::kName) {
       return plain(integrator, excitation, step, substeps);
@@ -150,7 +150,7 @@ ModelSetup withExactLinearPart(ModelSetup setup, std::shared_ptr<const Dynamics>
   setup.integrators.emplace_back(Exponential<1>::kName);
   setup.system = [stepped, plain = setup.system, jacobi = std::move(jacobi),
                   forces = std::move(forces)](const std::string& integrator,
-                                              const Excitation& excitation, double step,
+                                              const StepContext& excitation, double step,
                                               int substeps) -> std::unique_ptr<Stepper> {
     if (integrator != Exponential<1>::kName) {
       return plain(integrator, excitation, step, substeps);

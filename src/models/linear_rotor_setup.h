@@ -15,7 +15,7 @@ namespace whirl_twin {
 
 // The setup of a model that is a linear system given by its matrices.
 
-/// A setup that steps with every method of linear systems. Throws Refusal as
+/// A setup that steps with every method of linear systems. Throws InputError as
 /// LinearDynamics does.
 ModelSetup linearSetup(LinearModel model);
 
@@ -27,7 +27,7 @@ ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics,
 
 /// The same of a rotor whose shaft a motor turns, prepared for speeds up to the one at which the
 /// motor's torque comes down to its drag; up to `highest_speed` [rad/s] where there is no such, and
-/// where something else acts on the shaft. Throws Refusal as SpinningRotor does.
+/// where something else acts on the shaft. Throws InputError as SpinningRotor does.
 ModelSetup spinningRotorSetup(std::shared_ptr<const Dynamics> held, std::vector<LocalForce> forces,
                               SpinCoupling coupling, double highest_speed);
 
@@ -36,9 +36,9 @@ ModelSetup spinningRotorSetup(std::shared_ptr<const Dynamics> held, std::vector<
 ModelSetup withExactRunUps(ModelSetup setup, JacobiIntegral jacobi);
 
 /// A setup of a nonlinear model with a shaft that is a linear rotor, in the fixed frame, and a few
-/// forces at places along it: its `exponential` keeps that linear part exact, as of
-/// linearRotorSetup(). What of the forces is linear, `damping` of their own places [N s/m], is
-/// added to it; `jacobi` is that of LinearRotorStepper.
+/// nodal forces: its `exponential` integrates the linear part exactly, as that of
+/// linearRotorSetup(). The linear part of the forces, `damping` at their nodes [N s/m], is added to
+/// it; `jacobi` is that of LinearRotorStepper.
 ModelSetup withExactLinearPart(ModelSetup setup, std::shared_ptr<const Dynamics> linear,
                                double damping, JacobiIntegral jacobi,
                                std::vector<LocalForce> forces);

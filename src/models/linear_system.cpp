@@ -13,8 +13,8 @@
 #include "algebra/dense.h"
 #include "analysis/natural_modes.h"
 #include "integration/linear_methods.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "models/linear_rotor_setup.h"
 #include "models/model_info.h"
 #include "models/models.h"
@@ -147,7 +147,7 @@ std::vector<std::string> coordinateNames(const Settings& settings, Index n) {
     if (!isLegalName(names[i])) {
       throw SetupError(
           key, fmt::format("must have at most {} letters, digits and _, a letter first, found {}",
-                           kMaxNameLength, quoted(names[i])));
+                           kMaxNameLength, inQuotes(names[i])));
     }
     // A coordinate x also takes x_rate, the name of its rate.
     if (!taken.insert(names[i]).second || !taken.insert(names[i] + "_rate").second) {
@@ -175,7 +175,7 @@ std::vector<HarmonicForce> forcesOf(const Settings& settings,
       const std::string near = nearestName(name, names);
       throw SetupError(
           fmt::format("force[{}].coordinate", row),
-          fmt::format("must be a coordinate of the system, found {}{}", quoted(name),
+          fmt::format("must be a coordinate of the system, found {}{}", inQuotes(name),
                       near.empty() ? fmt::format("; there are: {}", fmt::join(names, ", "))
                                    : fmt::format("; did you mean '{}'?", near)));
     }
@@ -213,7 +213,7 @@ LinearModel inAssumedModes(const LinearModel& full, const MatrixXd& shapes) {
     model.gyroscopic = part(r.gyroscopic, -1.0);
     model.stiffness = part(r.stiffness, 1.0);
     model.circulatory = part(r.circulatory, -1.0);
-  } catch (const Refusal&) {
+  } catch (const InputError&) {
     throw SetupError(dependent);
   }
   if (!hasMassInEveryMotion(model.mass)) {
@@ -308,7 +308,7 @@ ModelInfo linearSystemInfo() {
                               {"phase", "rad", Range::kAny, 0.0}};
   info.variants = {{"", {}, true, false, linearMethodNames()}};
   info.variants[0].inputs = {{"force_COORDINATE", "N", {}, "along a coordinate of the matrices"}};
-  info.setUp = [](const ParameterValues&, const Settings& settings, const Surroundings&) {
+  info.setUp = [](const ParameterValues&, const Settings& settings, const ModelContext&) {
     return setUpLinearSystem(settings);
   };
   return info;

@@ -76,7 +76,7 @@ std::vector<NodeElement> nodeElements(const Settings& settings, int nodes) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const std::string key = fmt::format("{}[{}]", table, i);
       const int node = indexIn(rows[i], key, "node", nodes - 1);
-      if (std::shared_ptr<const LocalLaw> made = law(rows[i], key)) {
+      if (std::shared_ptr<const NodalForceLaw> made = law(rows[i], key)) {
         add({fmt::format("{}_{}", name, node), node, between, std::move(made)}, key, all);
         if (between != Between::kShaftAndGround) {
           all.back().damping = OilFilm{filmOf(rows[i]), false}.linearDamping();

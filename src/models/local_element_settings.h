@@ -1,5 +1,5 @@
-// What stands beside a flexible rotor's shaft and pushes on it by a law that is not linear, as
-// scenes give it: rubs, cubic springs, films (mechanics/local_elements.h).
+// Local nonlinear elements of a flexible rotor in a scene: rubs, cubic springs, oil films
+// (mechanics/local_elements.h).
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace whirl_twin {
 std::vector<SettingInfo> localElementSettings();
 
 struct NodeElement {
-  /// What it stands between. Where a node has no pedestal they are all the same.
+  /// The two bodies that it connects. For a node without a pedestal all are equivalent.
   enum class Between {
     kShaftAndGround,
     kShaftAndPedestal,  ///< the first one, as a bearing
@@ -26,7 +26,7 @@ struct NodeElement {
   std::string name;  ///< "rub_3"
   int node = 0;
   Between between = Between::kShaftAndGround;
-  std::shared_ptr<const LocalLaw> law;
+  std::shared_ptr<const NodalForceLaw> law;
   double damping = 0.0;                                       ///< [N s/m], of the rotor itself
   std::optional<ShortJournalBearing> journal = std::nullopt;  ///< it is the film of
 };

@@ -36,7 +36,7 @@ struct PlacedMagnet {
 };
 /// Its control currents.
 std::vector<InputInfo> currentsOf(const PlacedMagnet& placed);
-/// What is not linear in those that have a gap; the inputs of the first are from `first_input` on,
+/// The nonlinear part of those that have a gap; the inputs of the first are from `first_input` on,
 /// and those of the others follow in order.
 std::vector<LocalForce> localForcesOf(const std::vector<PlacedMagnet>& magnets,
                                       std::size_t first_input);

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "integration/called_system.h"
 #include "integration/dormand_prince_8.h"
+#include "integration/erased_system.h"
 #include "integration/exponential.h"
 #include "integration/gauss_legendre.h"
 #include "integration/jacobi_integral.h"
@@ -34,7 +34,7 @@ constexpr bool kLongEquations = false;
 #endif
 
 /// Methods that a model is composed with, for their speed; any other reaches it by calls. Of a
-/// linear model that is the exact step: no other is fast besides.
+/// linear model that is the exact step: no other fast one is needed.
 template <class Model>
 using ComposedMethods = std::conditional_t<
     Model::kLinear, MethodList<Exponential<Model::kDof>>,
@@ -69,7 +69,8 @@ Model makeModel(const ParameterValues& values, double gravity) {
   return model;
 }
 
-/// Do the matrices of a model tell all of it, so that with inputs its exact step can go by them?
+/// Whether the matrices of a model define it completely, so that its exact step with inputs can use
+/// them.
 template <class Model>
 constexpr bool kGivenByMatrices = Model::kLinear && !HasAlternatingLoads<Model>::value;
 
@@ -79,7 +80,7 @@ ModelSetup setUp(const Model& model) {
   const auto dynamics = std::make_shared<const LagrangianDynamics<Model>>(model);
   return {
       dynamics, integratorsOf<Model>(),
-      [model, dynamics](const std::string& integrator, const Excitation& excitation, double step,
+      [model, dynamics](const std::string& integrator, const StepContext& excitation, double step,
                         int substeps) {
         if constexpr (kGivenByMatrices<Model>) {
           if (excitation.inputs != nullptr && integrator == Exponential<Model::kDof>::kName) {
@@ -88,12 +89,12 @@ ModelSetup setUp(const Model& model) {
         }
         const InputForce inputs(excitation.inputs, dynamics->inputs());
         std::unique_ptr<Stepper> system;
-        if (HasDryContacts<Model>::of(model).count == 0) {  // else in parts, by calls
+        if (HasDryContacts<Model>::of(model).count == 0) {  // else in sub-steps, type-erased
           system =
               makeStepper(Methods{}, model, integrator, excitation.drive, inputs, step, substeps);
         }
         if (!system) {
-          system = calledSystem(CalledModel<Model::kDof>::of(model), integrator, excitation.drive,
+          system = erasedSystem(ErasedModel<Model::kDof>::of(model), integrator, excitation.drive,
                                 inputs, step, substeps);
         }
         if (!system) {
@@ -128,7 +129,7 @@ ModelVariant variant(const std::string& when) {
   return v;
 }
 
-/// What there is to say of a model of one form, but for its set-up.
+/// Description of a model of one form, without its set-up.
 template <class Model>
 ModelInfo modelDescription() {
   ModelInfo info;
@@ -152,21 +153,21 @@ ModelInfo modelDescription() {
 template <class Model>
 ModelInfo modelInfo() {
   ModelInfo info = modelDescription<Model>();
-  info.setUp = [](const ParameterValues& values, const Settings&, const Surroundings& around) {
+  info.setUp = [](const ParameterValues& values, const Settings&, const ModelContext& around) {
     return setUp<Model>(values, around.gravity);
   };
   return info;
 }
 
-/// A further form of a model with the same parameters, taken where `chosen` says so; `when` is said
-/// to users.
+/// A further form of a model with the same parameters, used where `chosen` returns true; `when` is
+/// printed in the help.
 template <class Model>
 void addVariant(ModelInfo& info, const std::string& when,
                 std::function<bool(const ParameterValues&, const Settings&)> chosen) {
   info.variants.push_back(variant<Model>(when));
   info.setUp = [plain = info.setUp, chosen = std::move(chosen)](const ParameterValues& values,
                                                                 const Settings& settings,
-                                                                const Surroundings& around) {
+                                                                const ModelContext& around) {
     return chosen(values, settings) ? setUp<Model>(values, around.gravity)
                                     : plain(values, settings, around);
   };

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "control/motor.h"
-#include "integration/excitation.h"
+#include "integration/step_context.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/model_description.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "models/settings.h"
 
 namespace whirl_twin {
@@ -47,22 +47,22 @@ struct ModelSetup {
   std::shared_ptr<const Dynamics> dynamics;
   std::vector<std::string> integrators;  ///< that it can step with
   /// Steps with one of `integrators`: step [s] in `substeps` parts, under what outlives it.
-  std::function<std::unique_ptr<Stepper>(const std::string& integrator, const Excitation&,
+  std::function<std::unique_ptr<Stepper>(const std::string& integrator, const StepContext&,
                                          double step, int substeps)>
       system;
   std::string note = "";  ///< what the user should know of how it was set up
   /// `exponential` follows a speed that changes although the matrices change with it.
   bool exact_run_ups = false;
-  /// What an evaluation of its accelerations costs, in those of a pendulum of as many coordinates:
-  /// calibrations budget with it, for they look at no clock.
+  /// Cost of an evaluation of its accelerations relative to a pendulum of as many coordinates:
+  /// calibrations budget with it instead of measured time.
   double evaluation_cost = 1.0;
 };
 
 /// Parameters that are each in range but do not fit together.
-class SetupError : public Refusal {
+class SetupError : public InputError {
  public:
   SetupError(std::string parameter, const std::string& what)
-      : Refusal(what), parameter_(std::move(parameter)) {}
+      : InputError(what), parameter_(std::move(parameter)) {}
   const std::string& parameter() const { return parameter_; }
 
  private:
@@ -70,12 +70,12 @@ class SetupError : public Refusal {
 };
 
 /// What a scene surrounds a system with.
-struct Surroundings {
+struct ModelContext {
   double gravity = 9.80665;  ///< [m/s^2]
   /// Of the drive that turns it: then the shaft's angle is a coordinate, `spin`, of the system.
   std::optional<Motor> motor = std::nullopt;
 
-  Surroundings(double gravity_now) : gravity(gravity_now) {}
+  ModelContext(double gravity_now) : gravity(gravity_now) {}
 };
 
 struct ModelInfo {
@@ -90,7 +90,7 @@ struct ModelInfo {
   bool takes_motor = false;  ///< its drive may be a motor
 
   /// The model with these parameters (all of `parameters`) and settings. Throws SetupError.
-  std::function<ModelSetup(const ParameterValues&, const Settings&, const Surroundings&)> setUp;
+  std::function<ModelSetup(const ParameterValues&, const Settings&, const ModelContext&)> setUp;
 };
 
 /// "> 0", ">= 0", "a whole number > 0" or "finite".

@@ -1,4 +1,4 @@
-// A model of another package: what a plugin hands over to be named in scenes like a built-in one.
+// Plugin interface for a model of a different package, which scenes can name like a built-in one.
 //
 //   class SaddleTrapPlugin : public whirl_twin::ModelPlugin {
 //    public:

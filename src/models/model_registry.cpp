@@ -150,8 +150,8 @@ IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes) {
   return {"gauss_legendre_6", "nonlinear: order 6, symplectic, stable at any step"};
 }
 
-std::string integratorObjection(const ModelSetup& setup, bool on_drive,
-                                const std::string& integrator) {
+std::string integratorDiagnostic(const ModelSetup& setup, bool on_drive,
+                                 const std::string& integrator) {
   const auto& suited = setup.integrators;
   const bool suits = std::find(suited.begin(), suited.end(), integrator) != suited.end();
   const auto& multistep = kStoermerSchemes;
@@ -176,7 +176,7 @@ std::string integratorObjection(const ModelSetup& setup, bool on_drive,
 bool canStepWith(const ModelSetup& setup, bool on_drive, const std::string& integrator) {
   const std::vector<std::string>& all = setup.integrators;
   return std::find(all.begin(), all.end(), integrator) != all.end() &&
-         integratorObjection(setup, on_drive, integrator).empty();
+         integratorDiagnostic(setup, on_drive, integrator).empty();
 }
 
 }  // namespace whirl_twin

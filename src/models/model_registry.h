@@ -9,9 +9,9 @@
 
 namespace whirl_twin {
 
-/// Where models come from that are not built in. It is asked once, and only when a name is looked
-/// for that no built-in model has, or when all models are listed: so it is to be set before. A
-/// model that is incomplete, or whose name is taken, is left out and `warn` is told why.
+/// Sets the source of models that are not built in. It is called once, on the first look-up of a
+/// name that no built-in model has, or when all models are listed: set it before. A model that is
+/// incomplete, or whose name is in use, is skipped and `warn` is called with the reason.
 void setModelSource(std::function<std::vector<ModelInfo>()> source,
                     std::function<void(const std::string&)> warn);
 
@@ -27,7 +27,7 @@ const ModelInfo* findModel(const std::string& name);
 /// Every integrator name a scene may use, `auto` first.
 const std::vector<std::string>& integratorNames();
 
-/// The method `auto` stands for, and why.
+/// The method selected by `auto`, and the reason.
 struct IntegratorChoice {
   std::string integrator;
   std::string reason;
@@ -37,8 +37,8 @@ IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes);
 
 /// Why a model cannot step with an integrator named in a scene; "" if it can.
 /// on_drive: as speed_changes above.
-std::string integratorObjection(const ModelSetup& setup, bool on_drive,
-                                const std::string& integrator);
+std::string integratorDiagnostic(const ModelSetup& setup, bool on_drive,
+                                 const std::string& integrator);
 
 /// The setup has that integrator, and there is no objection to it.
 bool canStepWith(const ModelSetup& setup, bool on_drive, const std::string& integrator);

@@ -1,5 +1,4 @@
-// One function a model, each in a translation unit of its own: that is where its steps are
-// compiled.
+// One function per model, each in a separate translation unit, where its steps are compiled.
 #pragma once
 
 #include "models/model_info.h"
@@ -26,21 +25,20 @@ ModelInfo spinningPendulumInfo();
 ModelInfo sprungInvertedPendulumInfo();
 ModelInfo twoBarLinkageInfo();
 
-// Small systems that one looks for by name, as models.h: one function a model, each in a
-// translation unit of its own.
+// Small systems: one function per model, each in a separate translation unit.
 
 ModelInfo elasticPendulumInfo();
 ModelInfo foucaultPendulumInfo();
 ModelInfo kapitzaPendulumInfo();
 ModelInfo massSpringDamperInfo();
 
-// The forms of the Jeffcott rotor, each in a translation unit of its own.
+// The forms of the Jeffcott rotor, each in a separate translation unit.
 
-/// Each with the gravity and the motor that `around` says.
-ModelSetup setUpNonlinearJeffcott(const ParameterValues& values, const Surroundings& around);
-ModelSetup setUpJournalJeffcott(const ParameterValues& values, const Surroundings& around);
+/// Each with the gravity and the motor of `around`.
+ModelSetup setUpNonlinearJeffcott(const ParameterValues& values, const ModelContext& around);
+ModelSetup setUpJournalJeffcott(const ParameterValues& values, const ModelContext& around);
 /// With a motor, of which there must be one.
-ModelSetup setUpSpinningJeffcott(const ParameterValues& values, const Surroundings& around);
+ModelSetup setUpSpinningJeffcott(const ParameterValues& values, const ModelContext& around);
 
 ModelVariant nonlinearJeffcottVariant(const std::string& when);
 ModelVariant journalJeffcottVariant(const std::string& when);

@@ -104,7 +104,7 @@ ModelInfo rigidDiscRotorInfo() {
   info.settings.push_back(magnetsSetting({{"position", "m", Range::kAny, 0.0}},
                                          "current_x_1, current_y_1, current_x_2 ... in order"));
   info.setUp = [](const ParameterValues& values, const Settings& settings,
-                  const Surroundings& around) {
+                  const ModelContext& around) {
     const bool turning = choice(settings, "frame", "fixed") == "rotating";
     const double asymmetry = values.at("stiffness_asymmetry");
     if (asymmetry > 0.0 && !turning) {
@@ -120,7 +120,7 @@ ModelInfo rigidDiscRotorInfo() {
     const double gravity = heavy ? around.gravity : 0.0;
     if (turning) {
       if (around.motor) {
-        throw SetupError("frame", "must be fixed with a motor");
+        throw SetupError("frame", "must be `fixed` for a rotor turned by a motor, found rotating");
       }
       if (!magnetRows(settings).empty()) {
         throw SetupError("magnets", "need frame: fixed");
@@ -137,7 +137,7 @@ ModelInfo rigidDiscRotorInfo() {
                                  magnets);
     }
     if (around.motor) {
-      Surroundings felt = around;
+      ModelContext felt = around;
       felt.gravity = gravity;
       return setUpSpinning<RigidDiscRotor>(complete, felt);
     }

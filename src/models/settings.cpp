@@ -24,7 +24,7 @@ int indexIn(const TableRow& row, const std::string& key, const char* column, int
 }
 
 std::vector<std::string> followingNotes(const Settings& settings, const std::string& name) {
-  std::map<std::string, std::vector<std::size_t>> rows;  // by what they say
+  std::map<std::string, std::vector<std::size_t>> rows;  // by their text
   const std::vector<TableRow>& table = rowsOf(settings, name);
   for (std::size_t i = 0; i < table.size(); ++i) {
     for (const auto& [follower, followed] : table[i].following) {

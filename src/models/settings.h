@@ -1,4 +1,4 @@
-// Parameters of a model that are not one number: words, names, matrices, tables of rows.
+// Parameters of a model other than single numbers: choices, names, matrices, tables of rows.
 #pragma once
 
 #include <Eigen/Core>
@@ -54,7 +54,7 @@ struct ColumnInfo {
   std::string fallback_column = "";
 };
 
-/// What a model says of a setting; scene files are checked against it.
+/// Description of a setting of a model; scene files are checked against it.
 struct SettingInfo {
   std::string name;
   SettingKind kind;
@@ -76,8 +76,8 @@ const std::vector<TableRow>& rowsOf(const Settings& settings, const std::string&
 /// SetupError.
 int indexIn(const TableRow& row, const std::string& key, const char* column, int last);
 
-/// What the numbers of a table that follow others stand for: "kyy as kxx (bearings[0])". Numbers
-/// that are 0 are left out.
+/// Notes on the numbers of a table that default to others: "kyy as kxx (bearings[0])". Numbers that
+/// are 0 are omitted.
 std::vector<std::string> followingNotes(const Settings& settings, const std::string& name);
 
 }  // namespace whirl_twin

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kUsualPoissonsRatio = 0.3;
 // Of Young's modulus: between them lie all materials, wound fibres too, and no mistake of a unit.
-constexpr double kLeastShear = 0.01;
-constexpr double kMostShear = 10.0;
+constexpr double kMinShear = 0.01;
+constexpr double kMaxShear = 10.0;
 
 /// The key of a number among the parameters or in a row.
 std::string below(const std::string& key, const char* name) {
@@ -84,10 +84,12 @@ ShaftMaterial ShaftMaterials::material(const std::map<std::string, double>& numb
   }
   const double given = numbers.at("shear_modulus");
   if (given > 0.0 &&
-      !(given >= kLeastShear * youngs_modulus && given <= kMostShear * youngs_modulus)) {
+      !(given >= kMinShear * youngs_modulus && given <= kMaxShear * youngs_modulus)) {
     throw SetupError(
         below(key, "shear_modulus"),
-        fmt::format("must be in Pa, about {:.3g} Pa with this youngs_modulus, found {}",
+        fmt::format("must be from {:.3g} to {:.3g} Pa, 0.01 to 10 times youngs_modulus (usual: "
+                    "{:.3g} Pa), found {} Pa",
+                    kMinShear * youngs_modulus, kMaxShear * youngs_modulus,
                     youngs_modulus / (2.0 * (1.0 + kUsualPoissonsRatio)), given));
   }
   if (given > 0.0 && !(given >= youngs_modulus / 3.0 && given <= youngs_modulus / 2.0)) {

@@ -1,5 +1,4 @@
-// Of what the parts of a flexible rotor's shaft are made: the material that the scene gives as its
-// own, and those it names.
+// Materials of a flexible rotor's shaft: the default material of the scene, and named ones.
 #pragma once
 
 #include <map>
@@ -16,14 +15,15 @@ SettingInfo materialsSetting();
 
 class ShaftMaterials {
  public:
-  /// Throws SetupError for a name that stands twice, and for a shear modulus that no material has.
+  /// Throws SetupError for a duplicate name and for a shear modulus that is implausible for its
+  /// Young's modulus.
   ShaftMaterials(const ParameterValues& values, const Settings& settings);
 
   const ShaftMaterial& own() const { return own_; }
   /// The one that a row names in its column `material`, or own(). Throws SetupError for a name that
   /// is not among `materials`, `key` being the row's in the scene.
   const ShaftMaterial& of(const TableRow& row, const std::string& key) const;
-  /// What is unusual.
+  /// Notes on unusual values.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:

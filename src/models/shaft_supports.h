@@ -1,4 +1,5 @@
-// What a flexible rotor's shaft stands on: bearings, the pedestals below them, magnets.
+// Supports of a flexible rotor's shaft: bearings, the pedestals below them, active magnetic
+// bearings.
 #pragma once
 
 #include <vector>

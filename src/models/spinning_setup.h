@@ -7,14 +7,14 @@
 namespace whirl_twin {
 
 template <class Rotor>
-ModelSetup setUpSpinning(const ParameterValues& values, const Surroundings& around) {
+ModelSetup setUpSpinning(const ParameterValues& values, const ModelContext& around) {
   FreeSpin<Rotor> rotor = makeModel<FreeSpin<Rotor>>(values, around.gravity);
   rotor.motor = around.motor.value();
   return setUp(rotor);
 }
 
 template <class Rotor>
-ModelSetup setUpEither(const ParameterValues& values, const Surroundings& around) {
+ModelSetup setUpEither(const ParameterValues& values, const ModelContext& around) {
   return around.motor ? setUpSpinning<Rotor>(values, around) : setUp<Rotor>(values, around.gravity);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using state::AlarmCommand;
 
-CommandAnswer refused(std::string why) {
+CommandAnswer rejected(std::string why) {
   return {false, std::move(why)};
 }
 
@@ -30,18 +30,18 @@ std::string systemText(const std::string& system) {
 }
 
 /// "", or that a system or type is none.
-std::string objectionToTarget(const AlarmCommand& command, const TwinMonitor& monitor) {
+std::string targetError(const AlarmCommand& command, const TwinMonitor& monitor) {
   std::vector<std::string> systems = monitor.systemNames();
   if (command.command == AlarmCommand::kAcknowledge) {
     systems.emplace_back(alert_type::kEverybody);  // alerts can be about all of the twin
   }
   if (!command.system.empty() && !isIn(systems, command.system)) {
-    return fmt::format("system: must be a system of the scene, found {}{}", quoted(command.system),
-                       hint(command.system, monitor.systemNames()));
+    return fmt::format("system: must be a system of the scene, found {}{}",
+                       inQuotes(command.system), hint(command.system, monitor.systemNames()));
   }
   const std::vector<std::string> types(std::begin(alert_type::kAll), std::end(alert_type::kAll));
   if (!command.type.empty() && !isIn(types, command.type)) {
-    return fmt::format("type: must be a type of alert, found {}{}", quoted(command.type),
+    return fmt::format("type: must be a type of alert, found {}{}", inQuotes(command.type),
                        hint(command.type, types));
   }
   return "";
@@ -53,13 +53,13 @@ std::string sinceNow(const std::string& by) {
 
 CommandAnswer acknowledge(const AlarmCommand& command, AlertList& alerts, const std::string& by) {
   const std::vector<state::Alert> active = alerts.active();
+  const bool all = command.system.empty() && command.type.empty();
   const bool any = std::any_of(active.begin(), active.end(), [&](const state::Alert& alert) {
     return (command.system.empty() || command.system == alert.system) &&
            (command.type.empty() || command.type == alert.type);
   });
-  const bool all = command.system.empty() && command.type.empty();
   if (!any && !all) {
-    return refused(
+    return rejected(
         fmt::format("no active alert {} of {}", command.type, systemText(command.system)));
   }
   return {true, fmt::format("{} acknowledged",
@@ -76,8 +76,8 @@ CommandAnswer reset(TwinMonitor& monitor, const std::string& by) {
 CommandAnswer inhibit(const AlarmCommand& command, TwinMonitor& monitor, double wall_time,
                       const std::string& by) {
   if (!(command.duration >= 0.0 && command.duration <= AlarmCommand::kLongest)) {
-    return refused(fmt::format("duration: must be from 0 to {:g} s, found {:g}",
-                               AlarmCommand::kLongest, command.duration));
+    return rejected(fmt::format("duration: must be from 0 to {:g} s, found {:g}",
+                                AlarmCommand::kLongest, command.duration));
   }
   const double lasts = monitor.inhibit(command.system, command.duration, wall_time, by).value();
   if (!(lasts > 0.0)) {
@@ -94,18 +94,18 @@ CommandAnswer inhibit(const AlarmCommand& command, TwinMonitor& monitor, double 
 
 CommandAnswer carryOut(const AlarmCommand& command, TwinMonitor& monitor, double wall_time,
                        const std::string& by) {
-  const std::string wrong = objectionToTarget(command, monitor);
+  const std::string wrong = targetError(command, monitor);
   if (!wrong.empty()) {
-    return refused(wrong);
+    return rejected(wrong);
   }
-  // Who names what a command does not speak of means another one.
+  // A field that a command does not use is a sign of a different one.
   if (command.command != AlarmCommand::kInhibit && command.duration != 0.0) {
-    return refused(fmt::format("duration: must be 0 except for command 3 (inhibit), found {:g}",
-                               command.duration));
+    return rejected(fmt::format("duration: must be 0 except for command 3 (inhibit), found {:g}",
+                                command.duration));
   }
   if (command.command != AlarmCommand::kAcknowledge && !command.type.empty()) {
-    return refused(fmt::format("type: must be empty except for command 1 (acknowledge), found {}",
-                               command.type));
+    return rejected(fmt::format("type: must be empty except for command 1 (acknowledge), found {}",
+                                command.type));
   }
   switch (command.command) {
     case AlarmCommand::kAcknowledge:
@@ -113,13 +113,13 @@ CommandAnswer carryOut(const AlarmCommand& command, TwinMonitor& monitor, double
     case AlarmCommand::kReset:
       return command.system.empty()
                  ? reset(monitor, by)
-                 : refused(fmt::format(
+                 : rejected(fmt::format(
                        "system: must be empty, since command 2 resets all alarms, found {}",
                        command.system));
     case AlarmCommand::kInhibit:
       return inhibit(command, monitor, wall_time, by);
     default:
-      return refused(fmt::format("command: must be 1, 2 or 3, found {}", command.command));
+      return rejected(fmt::format("command: must be 1, 2 or 3, found {}", command.command));
   }
 }
 

@@ -1,5 +1,5 @@
-// What people tell the monitor about its alarms, whichever way it comes: acknowledge, reset,
-// inhibit. A command that cannot be meant is refused whole, with a sentence.
+// Commands to the alarms, whichever way they come: acknowledge, reset, inhibit. An invalid command
+// is rejected as a whole, with a sentence.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct CommandAnswer {
   std::string text;  ///< what was done, or why it was not
 };
 
-/// wall_time [s]: now, of the clock the monitor is told; by: who commands, as people find them.
+/// wall_time [s]: now, by the clock of TwinMonitor::tick(); by: the sender.
 CommandAnswer carryOut(const state::AlarmCommand& command, TwinMonitor& monitor, double wall_time,
                        const std::string& by = "an unknown sender");
 

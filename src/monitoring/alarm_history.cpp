@@ -18,8 +18,8 @@
 #include <utility>
 
 #include "messages/checksum.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "messages/wall_clock.h"
 #include "twin/durable_file.h"
 

@@ -1,7 +1,7 @@
 // The history of the alarms in a file: one JSON object a line, an event a line, always appended, so
-// that it says after a death of the monitor what it said before. Event is "alert" (all fields of
+// that a monitor that died leaves a complete record. Event is "alert" (all fields of
 // the alert, but for numbers that are not meant), "reset" of the alarms, "run" of simulated time,
-// "settings" as they were changed live, and at the head of a file that was begun anew "raised", how
+// "settings" as they were changed live, and at the head of a new file "raised", how
 // often a kind was before, and "id", the last that was given. Each line ends with its checksum
 // (CRC-32C of what is before it); lines of earlier versions have none. A line that cannot be read
 // or has another checksum, as the last one of a monitor that was killed while it wrote, is left
@@ -19,7 +19,7 @@
 #include <map>
 #include <string>
 
-#include "monitoring/alarm_memory.h"
+#include "monitoring/alert_list.h"
 
 namespace whirl_twin {
 

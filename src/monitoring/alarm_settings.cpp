@@ -31,51 +31,50 @@ AlarmDelays AlarmSettings::delaysOf(const std::string& type) const {
   return own == delays.end() ? AlarmDelays{0.0, clear_delay} : own->second;
 }
 
+const std::vector<AlarmSetting>& alarmSettings() {
+  using S = AlarmSettings;
+  const auto any = [](double) { return true; };
+  const auto positive = [](double x) { return x > 0.0; };
+  const auto not_negative = [](double x) { return x >= 0.0; };
+  const auto fraction = [](double x) { return x >= 0.0 && x <= 1.0; };
+  static const std::vector<AlarmSetting> all{
+      {"approach_time", &S::approach_time, positive, "> 0 s"},
+      {"clear_delay", &S::clear_delay, not_negative, ">= 0 s"},
+      {"hysteresis", &S::hysteresis, [](double x) { return x >= 0.0 && x < 1.0; },
+       ">= 0 and < 1 (a fraction)"},
+      {"dwell_limit", &S::dwell_limit, positive, "> 0 s"},
+      {"decay_rate_alarm", &S::decay_rate_alarm, not_negative, ">= 0 1/s"},
+      {"log_decrement_warning", &S::log_decrement_warning, not_negative, ">= 0 (dimensionless)"},
+      {"sensitivity_warning", &S::sensitivity_warning, [](double x) { return x == 0.0 || x > 1.0; },
+       "0, or > 1 (dimensionless)"},
+      {"saturation_time", &S::saturation_time, [](double x) { return x == 0.0 || x >= 1.0; },
+       "0, or >= 1 s"},
+      {"members_beyond", &S::members_beyond, fraction, "from 0 to 1 (a fraction)"},
+      {"lowest_decay_rate", &S::lowest_decay_rate, any, "a number in 1/s"},
+      {"energy_residual", &S::energy_residual, positive, "> 0 (dimensionless)"},
+      {"data_timeout", &S::data_timeout, positive, "> 0 s"},
+      {"decay_audit", &S::decay_audit,
+       [](double x) { return x == 0.0 || (x >= 5.0 && x <= 3600.0); }, "0, or from 5 to 3600 s"},
+      {"sensor_delay", &S::sensor_delay, not_negative, ">= 0 s"},
+      {"clock_offset", &S::clock_offset, not_negative, ">= 0 s"},
+      {"clock_drift", &S::clock_drift, not_negative, ">= 0 (dimensionless)"},
+      {"trip_multiply", &S::trip_multiply, [](double x) { return x >= 1.0 && x <= 10.0; },
+       "from 1 to 10 (dimensionless)"},
+      {"start_up_acceleration", &S::start_up_acceleration, not_negative, ">= 0 rad/s^2"},
+      {"max_inhibition", &S::max_inhibition, [](double x) { return x > 0.0 && x <= 3600.0; },
+       "> 0 and <= 3600 s"}};
+  return all;
+}
+
 std::vector<std::string> settingErrors(const AlarmSettings& settings) {
   std::vector<std::string> errors;
-  const auto check = [&errors](const char* key, double value, bool in_range, const char* expected) {
-    if (!in_range || !std::isfinite(value)) {
-      errors.push_back(fmt::format("{}: must be {}, found {:g}", key, expected, value));
+  for (const AlarmSetting& setting : alarmSettings()) {
+    const double value = settings.*setting.value;
+    if (!std::isfinite(value) || !setting.isInRange(value)) {
+      errors.push_back(
+          fmt::format("{}: must be {}, found {:g}", setting.key, setting.expected, value));
     }
-  };
-  const auto positive = [&check](const char* key, double value, const char* expected) {
-    check(key, value, value > 0.0, expected);
-  };
-  const auto not_negative = [&check](const char* key, double value, const char* expected) {
-    check(key, value, value >= 0.0, expected);
-  };
-  positive("approach_time", settings.approach_time, "> 0 s");
-  not_negative("clear_delay", settings.clear_delay, ">= 0 s");
-  check("hysteresis", settings.hysteresis, settings.hysteresis >= 0.0 && settings.hysteresis < 1.0,
-        ">= 0 and < 1 (a fraction)");
-  positive("dwell_limit", settings.dwell_limit, "> 0 s");
-  not_negative("decay_rate_alarm", settings.decay_rate_alarm, ">= 0 1/s");
-  not_negative("log_decrement_warning", settings.log_decrement_warning, ">= 0 (dimensionless)");
-  check("sensitivity_warning", settings.sensitivity_warning,
-        settings.sensitivity_warning == 0.0 || settings.sensitivity_warning > 1.0,
-        "0, or > 1 (dimensionless)");
-  check("saturation_time", settings.saturation_time,
-        settings.saturation_time == 0.0 || settings.saturation_time >= 1.0, "0, or >= 1 s");
-  check("members_beyond", settings.members_beyond,
-        settings.members_beyond >= 0.0 && settings.members_beyond <= 1.0,
-        "from 0 to 1 (a fraction)");
-  check("lowest_decay_rate", settings.lowest_decay_rate, std::isfinite(settings.lowest_decay_rate),
-        "a number in 1/s");
-  positive("energy_residual", settings.energy_residual, "> 0 (dimensionless)");
-  positive("data_timeout", settings.data_timeout, "> 0 s");
-  check("decay_audit", settings.decay_audit,
-        settings.decay_audit == 0.0 ||
-            (settings.decay_audit >= 5.0 && settings.decay_audit <= 3600.0),
-        "0, or from 5 to 3600 s");
-  not_negative("sensor_delay", settings.sensor_delay, ">= 0 s");
-  not_negative("clock_offset", settings.clock_offset, ">= 0 s");
-  not_negative("clock_drift", settings.clock_drift, ">= 0 (dimensionless)");
-  check("trip_multiply", settings.trip_multiply,
-        settings.trip_multiply >= 1.0 && settings.trip_multiply <= 10.0,
-        "from 1 to 10 (dimensionless)");
-  not_negative("start_up_acceleration", settings.start_up_acceleration, ">= 0 rad/s^2");
-  check("max_inhibition", settings.max_inhibition,
-        settings.max_inhibition > 0.0 && settings.max_inhibition <= 3600.0, "> 0 and <= 3600 s");
+  }
   return errors;
 }
 

@@ -1,9 +1,10 @@
-// What a protection engineer sets: when to warn, when to call it danger, when to let go.
+// The settings of the alarms: when to warn, when to raise danger, when to clear.
 // The defaults are those of config/monitor.yaml.
 #pragma once
 
 #include <limits>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace whirl_twin {
 /// Which alerts stay after their cause has gone, until the alarms are reset.
 enum class Latch { kNone, kDanger, kAll };
 
-/// Levels of a rotor's amplitude [m] (whirl_vibration.h) over the speed of its shaft, its sign left
+/// Levels of a rotor's amplitude [m] (WhirlVibration) over the speed of its shaft, its sign left
 /// out: linear between the points, and beyond them as at the last. Without points of speed, one
 /// level for all.
 struct AmplitudeLevels {
@@ -22,7 +23,7 @@ struct AmplitudeLevels {
   std::vector<double> alert;   ///< [m], one a point; empty: none
   std::vector<double> danger;  ///< [m], likewise
 
-  /// [m]: a wider whirl is no measurement (data_quality.h).
+  /// [m]: a wider whirl is no measurement (DataQuality).
   double range = std::numeric_limits<double>::infinity();
 
   /// Infinite where there is none.
@@ -49,16 +50,16 @@ struct VibrationZones {
   double a = 0.0, b = 0.0, c = 0.0;
 };
 
-/// Levels [m] of what tells a rub; infinite: none.
+/// Levels [m] of signs of a rub; infinite: none.
 struct RubLevels {
   double backward = std::numeric_limits<double>::infinity();     ///< of what whirls backward
   double subharmonic = std::numeric_limits<double>::infinity();  ///< of a half and a third order
 };
 
-/// What turns with a shaft at any speed, its bow and the run-out of its surface: taken off what is
-/// measured.
+/// What turns with a shaft at any speed, its bow and the run-out of its surface: compensated in
+/// measurements.
 struct SlowRoll {
-  double below = 0.0;  ///< [rad/s], it is learnt while the shaft turns slower; 0: as given
+  double below = 0.0;  ///< [rad/s], it is learned while the shaft turns slower; 0: as given
   OrderVector given;   ///< of the first order
 };
 
@@ -78,8 +79,8 @@ struct AlarmSettings {
   // Of the loops of controllers:
   double sensitivity_warning = 4.0;  ///< [-], warn above (ISO 14839-3: zone B ends); 0: do not
   double saturation_time = 10.0;     ///< [s], warn when saturated for longer; 0: do not
-  // Of a system with a `spread` and no count:
-  double members_beyond = 0.0;      ///< [-], warn when a larger part of its members is beyond
+  // Of a system with a `spread` (tolerances) and no count:
+  double members_beyond = 0.0;      ///< [-], warn when a larger part of its samples is beyond
   double lowest_decay_rate = 0.0;   ///< [1/s], warn when the slowest decay within it is slower
   double energy_residual = 1.0e-6;  ///< [-], warn when the energy balance is off by more
   double data_timeout = 1.0;        ///< [s] wall time, silence of one system among others
@@ -92,7 +93,7 @@ struct AlarmSettings {
   std::map<std::string, SlowRoll> slow_roll;     ///< of systems that are measured
   std::map<std::string, RubLevels> rub;          ///< of systems that have some
   double decay_audit = 0.0;  ///< [s], record that decay is measured from; 0: it is not
-  // Of a system that follows its machine:
+  // Of a system with a state estimator:
   double sensor_delay = 2.0;    ///< [s], a channel or the shaft unknown this long is an alert
   double clock_offset = 1.0;    ///< [s], warn when the machine's clock is further off; 0: do not
   double clock_drift = 5.0e-4;  ///< [-], warn when it gains or loses more in a second; 0: do not
@@ -105,7 +106,44 @@ struct AlarmSettings {
   AlarmDelays delaysOf(const std::string& type) const;
 };
 
-/// What is wrong with the settings, one sentence a value ("clear_delay: must be >= 0 s, found -1");
+/// Of one system; nullptr where it has none.
+template <class Setting>
+const Setting* settingOf(const std::map<std::string, Setting>& settings,
+                         const std::string& system) {
+  const auto own = settings.find(system);
+  return own == settings.end() ? nullptr : &own->second;
+}
+
+/// The settings in force, shared by all alarms of a monitor: a change of them acts on what alarms
+/// evaluate next, and what they know of their causes, and for how long, stays.
+class SharedSettings {
+ public:
+  SharedSettings(const AlarmSettings& settings)  // implicit: an alarm alone has its own
+      : settings_(std::make_shared<AlarmSettings>(settings)) {}
+
+  const AlarmSettings& operator*() const { return *settings_; }
+  const AlarmSettings* operator->() const { return settings_.get(); }
+  /// For all that share them.
+  void replace(const AlarmSettings& settings) { *settings_ = settings; }
+
+ private:
+  std::shared_ptr<AlarmSettings> settings_;
+};
+
+/// A number among the settings.
+struct AlarmSetting {
+  const char* key;
+  double AlarmSettings::*value;
+  bool (*isInRange)(double);
+  const char* expected;  ///< "> 0 s", with its unit
+};
+const std::vector<AlarmSetting>& alarmSettings();
+
+/// Keys of settings that have entries of their own, of types of alert and of rotors.
+inline constexpr const char* kSettingMaps[] = {"delays",         "amplitude", "voting",   "zones",
+                                               "subsynchronous", "rub",       "slow_roll"};
+
+/// What is wrong with the numbers, one sentence a value ("clear_delay: must be >= 0 s, found -1");
 /// empty when they can be used.
 std::vector<std::string> settingErrors(const AlarmSettings& settings);
 

@@ -24,6 +24,13 @@ std::string shaftSpeedText(double speed) {
   return fmt::format("{:.1f} rad/s ({:.0f} rpm)", speed, speed * 30.0 / kPi);
 }
 
+AlarmCondition levelCondition(double value, double warning, double danger, double hysteresis) {
+  return value > danger                          ? AlarmCondition::kDanger
+         : value > warning                       ? AlarmCondition::kWarning
+         : value <= warning * (1.0 - hysteresis) ? AlarmCondition::kClear
+                                                 : AlarmCondition::kHold;
+}
+
 ConditionAlarm::Change ConditionAlarm::update(double time, AlarmCondition condition) {
   if (!std::isfinite(time)) {
     return Change::kNone;

@@ -20,12 +20,12 @@ DataQuality::DataQuality(std::string system, const AlarmSettings& settings)
 
 void DataQuality::set(const AlarmSettings& settings) {
   timeout_ = settings.data_timeout;
-  const auto levels = settings.amplitude.find(system_);
-  range_ = (levels != settings.amplitude.end() ? levels->second : AmplitudeLevels()).range;
+  const AmplitudeLevels* const levels = settingOf(settings.amplitude, system_);
+  range_ = levels == nullptr ? kInfinity : levels->range;
 }
 
 bool DataQuality::take(std::string unfit, double wall_time) {
-  heard_at_ = wall_time;
+  received_at_ = wall_time;
   unfit_ = std::move(unfit);
   return unfit_.empty();
 }
@@ -49,7 +49,7 @@ bool DataQuality::take(const state::WhirlState& whirl, double wall_time) {
 
 std::string DataQuality::stuck(const state::WhirlState& whirl) {
   const double since = whirl.at.time - sampled_at_;
-  if (since == 0.0) {  // told again
+  if (since == 0.0) {  // received again
     return unfit_;
   }
   if (!(since > 0.0) || (period_ > 0.0 && since > kGap * period_)) {
@@ -77,15 +77,15 @@ bool DataQuality::take(const state::PendulumState& pendulum, double wall_time) {
 }
 
 bool DataQuality::isStale(double wall_time) const {
-  return !(wall_time - heard_at_ <= timeout_);
+  return !(wall_time - received_at_ <= timeout_);
 }
 
-std::string DataQuality::notOk(double wall_time, bool paused) const {
-  if (!heard()) {
+std::string DataQuality::problem(double wall_time, bool paused) const {
+  if (!received()) {
     return "stale: no state received yet";
   }
   if (isStale(wall_time) && !paused) {
-    return fmt::format("stale: no state for {:.1f} s", wall_time - heard_at_);
+    return fmt::format("stale: no state for {:.1f} s", wall_time - received_at_);
   }
   return unfit_;
 }

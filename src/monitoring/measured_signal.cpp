@@ -19,9 +19,9 @@ constexpr double kFewTurns = 5.0;  // without a pulse: it is missing
 constexpr int kManyRejected = ShaftTracker::kLately / 2;
 constexpr double kStandsSoon = 10.0;  // [rad/s], a slower shaft may stop within a turn
 
-/// Slow roll is what stands still in the shaft: of a vector less sure than this part it is not.
+/// Slow roll is constant in the shaft: a vector less certain than this part is none.
 constexpr double kSure = 0.03;
-constexpr double kAsSlow = 1.05;  // times the slowest speed it was learnt at: there anew
+constexpr double kAsSlow = 1.05;  // times the slowest speed it was learned at: there again
 
 }  // namespace
 
@@ -74,16 +74,14 @@ MeasuredSignal::MeasuredSignal(std::string system, const MeasuredOrbitSettings& 
 
 void MeasuredSignal::set(const AlarmSettings& settings) {
   timeout_ = settings.data_timeout;
-  const auto levels = settings.amplitude.find(system_);
-  range_ = (levels != settings.amplitude.end() ? levels->second : AmplitudeLevels()).range;
-  const auto roll = settings.slow_roll.find(system_);
-  slow_below_ = 0.0;
-  if (roll == settings.slow_roll.end()) {
+  const AmplitudeLevels* const levels = settingOf(settings.amplitude, system_);
+  range_ = levels == nullptr ? kInfinity : levels->range;
+  const SlowRoll* const roll = settingOf(settings.slow_roll, system_);
+  slow_below_ = roll == nullptr ? 0.0 : roll->below;
+  if (roll == nullptr) {
     slow_roll_.reset();
-  } else if (roll->second.below > 0.0) {
-    slow_below_ = roll->second.below;
-  } else {
-    slow_roll_ = roll->second.given;
+  } else if (!(roll->below > 0.0)) {
+    slow_roll_ = roll->given;
   }
 }
 
@@ -91,7 +89,7 @@ void MeasuredSignal::restart() {
   orbit_.clear();
   filter_.clear();
   slow_filter_.clear();
-  told_at_ = -kInfinity;  // never
+  published_at_ = -kInfinity;  // never
   turning_ = acceleration_ = 0.0;
   beyond_.clear();
   for (Probe& probe : probes_) {
@@ -99,14 +97,14 @@ void MeasuredSignal::restart() {
   }
 }
 
-void MeasuredSignal::look(Probe& probe, const MeasuredProbe& at, const state::Measurement& message,
-                          double wall_time) {
+void MeasuredSignal::check(Probe& probe, const MeasuredProbe& at, const state::Measurement& message,
+                           double wall_time) {
   const auto found = std::find(message.channel.begin(), message.channel.end(), at.channel);
   if (message.source != at.source || found == message.channel.end()) {
     return;
   }
-  probe.heard = true;
-  probe.heard_at = wall_time;
+  probe.received = true;
+  probe.received_at = wall_time;
   probe.why.clear();
   for (auto i = static_cast<std::size_t>(found - message.channel.begin()); i < message.value.size();
        i += message.channel.size()) {
@@ -125,7 +123,7 @@ void MeasuredSignal::look(Probe& probe, const MeasuredProbe& at, const state::Me
 
 void MeasuredSignal::take(const state::Measurement& message, double wall_time) {
   for (std::size_t i = 0; i < probes_.size(); ++i) {
-    look(probes_[i], settings_.probes[i], message, wall_time);
+    check(probes_[i], settings_.probes[i], message, wall_time);
   }
   if (message.source == settings_.keyphasor) {
     pulse_at_ = wall_time;
@@ -138,13 +136,13 @@ void MeasuredSignal::take(const state::Measurement& message, double wall_time) {
     beyond_.clear();
   }
   for (const OrbitSample& sample : samples_) {
-    follow(sample);
+    addSample(sample);
   }
 }
 
-void MeasuredSignal::follow(const OrbitSample& measured) {
+void MeasuredSignal::addSample(const OrbitSample& measured) {
   OrbitSample sample = measured;
-  const bool due = sample.time - told_at_ >= kTelling;
+  const bool due = sample.time - published_at_ >= kTelling;
   learnSlowRoll(sample, due);
   if (slow_roll_ && sample.speed != 0.0) {
     const std::complex<double> turn = std::polar(1.0, sample.remainder);
@@ -170,8 +168,8 @@ void MeasuredSignal::follow(const OrbitSample& measured) {
   motion_.push_back(whirl);
   filter_.take(sample);
   if (due) {
-    told_at_ = sample.time;
-    state::OrderState orders = toldOrders(filter_.estimate());
+    published_at_ = sample.time;
+    state::OrderState orders = reportedOrders(filter_.estimate());
     orders.at = whirl.at;
     orders.system = system_;
     orders_.push_back(std::move(orders));
@@ -200,7 +198,7 @@ void MeasuredSignal::learnSlowRoll(const OrbitSample& sample, bool due) {
 }
 
 bool MeasuredSignal::isSilent(const Probe& probe, double wall_time) const {
-  return !probe.heard || wall_time - probe.heard_at > timeout_;
+  return !probe.received || wall_time - probe.received_at > timeout_;
 }
 
 bool MeasuredSignal::isFit(double wall_time) const {
@@ -209,17 +207,17 @@ bool MeasuredSignal::isFit(double wall_time) const {
          });
 }
 
-std::string MeasuredSignal::notOk(double wall_time, bool paused) const {
-  if (!heard()) {
+std::string MeasuredSignal::problem(double wall_time, bool paused) const {
+  if (!received()) {
     return "";
   }
   for (const Probe& probe : probes_) {
-    if (!probe.heard) {
+    if (!probe.received) {
       return fmt::format("timeout: no sample of {} received yet", probe.name);
     }
     if (!paused && isSilent(probe, wall_time)) {
       return fmt::format("timeout: no sample of {} for {:.1f} s", probe.name,
-                         wall_time - probe.heard_at);
+                         wall_time - probe.received_at);
     }
     if (!probe.why.empty()) {
       return probe.why;

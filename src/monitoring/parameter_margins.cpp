@@ -31,8 +31,8 @@ struct Candidate {
 SystemOfNumber withNumber(const BuiltSystem& system, const std::string& path, double speed) {
   return [&system, path, speed](double value) -> std::optional<SystemAtNumber> {
     SystemSpec spec = system.spec;
-    Complaints complaints("");
-    if (!setParameter(path, value, *system.model, spec, complaints)) {
+    Diagnostics diagnostics("");
+    if (!setParameter(path, value, *system.model, spec, diagnostics)) {
       return std::nullopt;
     }
     try {
@@ -190,12 +190,12 @@ std::optional<ParameterMargin> ifFinite(const Find& find) {
 }  // namespace
 
 MarginResolution marginResolution(const Dynamics& dynamics) {
-  return dynamics.dof() <= kMostExactCoordinates ? MarginResolution{} : MarginResolution{0.25, 4.0};
+  return dynamics.dof() <= kMaxExactCoordinates ? MarginResolution{} : MarginResolution{0.25, 4.0};
 }
 
 bool isQuickToSearch(const BuiltSystem& system) {
   const bool periodic = !judgedDynamics(system.dynamics, system.spec)->loadFrequencies().empty();
-  return system.dynamics->dof() <= (periodic ? 1 : kMostExactCoordinates) &&
+  return system.dynamics->dof() <= (periodic ? 1 : kMaxExactCoordinates) &&
          system.spec.settings.tables.empty();
 }
 
@@ -223,8 +223,9 @@ std::vector<ParameterMargin> parameterMargins(const BuiltSystem& system, const S
   return all;
 }
 
-std::optional<ParameterMargin> nearestLoss(const BuiltSystem& system, const SteadyMotion& motion,
-                                           double speed, const std::function<bool()>& given_up) {
+std::optional<ParameterMargin> nearestInstability(const BuiltSystem& system,
+                                                  const SteadyMotion& motion, double speed,
+                                                  const std::function<bool()>& given_up) {
   const MarginResolution resolution = marginResolution(*system.dynamics);
   std::optional<ParameterMargin> nearest;
   std::vector<Candidate> numbers = candidates(system, speed);

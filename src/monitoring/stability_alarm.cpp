@@ -90,9 +90,13 @@ std::string wayToStay(const state::StabilityMargin& margin) {
   return goodDamping(margin);
 }
 
-std::string unstableText(const std::string& system, const state::StabilityMargin& margin,
-                         AlarmCondition condition) {
-  const std::string where = system + speedText(margin.speed) + aboutText(margin);
+void setNumbers(const state::StabilityMargin& margin, state::Alert& alert) {
+  alert.speed = margin.speed;
+  alert.decay_rate = margin.decay_rate;
+}
+
+std::string unstableText(const state::StabilityMargin& margin, AlarmCondition condition) {
+  const std::string where = speedText(margin.speed) + aboutText(margin);
   switch (condition) {
     case AlarmCondition::kDanger:
       return fmt::format("{}: unstable, {}, growth rate {:.3g} 1/s: {}", where, growingText(margin),
@@ -100,8 +104,8 @@ std::string unstableText(const std::string& system, const state::StabilityMargin
     case AlarmCondition::kWarning:
       if (margin.reduction_disagrees) {
         return fmt::format(
-            "{}: verdict uncertain, decay rate {:.3g} 1/s of the full-order model, {:.3g} 1/s of "
-            "the reduced-order model: retain more modes",
+            "{}: stability uncertain, the models disagree: decay rate {:.3g} 1/s of the full-order "
+            "model, {:.3g} 1/s of the reduced-order model: retain more modes",
             where, margin.unreduced_decay_rate, margin.decay_rate);
       }
       return fmt::format("{}: repeated imaginary roots, the motion may grow with time: {}", where,
@@ -114,20 +118,19 @@ std::string unstableText(const std::string& system, const state::StabilityMargin
 
 }  // namespace
 
-StabilityAlarm::StabilityAlarm(std::string system, const AlarmSettings& settings)
-    : system_(std::move(system)),
-      settings_(settings),
-      unstable_alarm_(settings.delaysOf(alert_type::kUnstable)),
-      low_damping_alarm_(settings.delaysOf(alert_type::kLowDamping)),
-      disagreement_alarm_(settings.delaysOf(alert_type::kRouthDisagrees)),
-      spread_alarm_(settings.delaysOf(alert_type::kUnstableWithinSpread)) {}
+StabilityAlarm::StabilityAlarm(const std::string& system, const SharedSettings& settings,
+                               bool damped)
+    : settings_(settings),
+      damped_(damped),
+      unstable_(system, alert_type::kUnstable, settings, system),
+      low_damping_(system, alert_type::kLowDamping, settings, system),
+      disagreement_(system, alert_type::kRouthDisagrees, settings, system),
+      spread_(system, alert_type::kUnstableWithinSpread, settings, system) {}
 
-void StabilityAlarm::set(const AlarmSettings& settings) {
-  settings_ = settings;
-  unstable_alarm_.setDelays(settings.delaysOf(alert_type::kUnstable));
-  low_damping_alarm_.setDelays(settings.delaysOf(alert_type::kLowDamping));
-  disagreement_alarm_.setDelays(settings.delaysOf(alert_type::kRouthDisagrees));
-  spread_alarm_.setDelays(settings.delaysOf(alert_type::kUnstableWithinSpread));
+void StabilityAlarm::hold() {
+  for (Alarm* alarm : {&unstable_, &low_damping_, &disagreement_, &spread_}) {
+    alarm->hold();
+  }
 }
 
 void StabilityAlarm::update(const state::StabilityMargin& margin, AlertList& alerts) {
@@ -139,129 +142,111 @@ void StabilityAlarm::update(const state::StabilityMargin& margin, AlertList& ale
 
 void StabilityAlarm::updateUnstable(const state::StabilityMargin& margin, AlertList& alerts) {
   const AlarmCondition condition = verdictCondition(margin);
-  const auto change = unstable_alarm_.update(margin.at.time, condition);
-  if (change == ConditionAlarm::Change::kCleared) {
-    alerts.clear(system_, alert_type::kUnstable, margin.at.time,
-                 fmt::format("{}{}: stable again, decay rate {:.3g} 1/s", system_,
-                             speedText(margin.speed), margin.decay_rate));
-  } else if (unstable_alarm_.active() && condition != AlarmCondition::kClear) {
-    state::Alert alert = alertAbout(margin);
-    alert.type = alert_type::kUnstable;
-    alert.severity = unstable_alarm_.severity();
-    alert.text = unstableText(system_, margin, condition);
-    alerts.raise(std::move(alert), margin.verdict_name);
+  const auto describe = [&](state::Alert& alert) {
+    setNumbers(margin, alert);
+    alert.text = unstableText(margin, condition);
+    return margin.verdict_name;
+  };
+  unstable_.update(margin.at.time, condition, alerts, describe, [&] {
+    return fmt::format("{}: stable again, decay rate {:.3g} 1/s", speedText(margin.speed),
+                       margin.decay_rate);
+  });
+  if (condition == AlarmCondition::kHold && unstable_.active()) {  // its text: uncertain
+    unstable_.raise(margin.at.time, alerts, describe);
   }
 }
 
 void StabilityAlarm::updateLowDamping(const state::StabilityMargin& margin, AlertList& alerts) {
-  const AlarmCondition condition = dampingCondition(margin);
-  const auto change = low_damping_alarm_.update(margin.at.time, condition);
-  if (change == ConditionAlarm::Change::kCleared) {
-    alerts.clear(system_, alert_type::kLowDamping, margin.at.time,
-                 fmt::format("{}{}: damping sufficient again, log decrement {:.3g}, decay rate "
-                             "{:.3g} 1/s",
-                             system_, speedText(margin.speed), judgedLogDecrement(margin),
-                             judgedDecayRate(margin)));
-  } else if (low_damping_alarm_.active() && isRaising(condition)) {
-    state::Alert alert = alertAbout(margin);
-    alert.type = alert_type::kLowDamping;
-    alert.severity = low_damping_alarm_.severity();
-    if (judgedLogDecrement(margin) < settings_.log_decrement_warning) {
-      alert.text =
-          fmt::format("{}{}{}: log decrement {:.3g}, below {:g}: {}", system_,
-                      speedText(margin.speed), aboutText(margin), judgedLogDecrement(margin),
-                      settings_.log_decrement_warning, wayToStay(margin));
-    } else {
-      alert.text = fmt::format("{}{}{}: decay rate {:.3g} 1/s, below {:g} 1/s: {}", system_,
-                               speedText(margin.speed), aboutText(margin), judgedDecayRate(margin),
-                               settings_.decay_rate_alarm, wayToStay(margin));
-    }
-    alerts.raise(std::move(alert), "low damping");
-  }
+  const double decrement = dampingLogDecrement(margin);
+  const double rate = dampingDecayRate(margin);
+  low_damping_.update(
+      margin.at.time, dampingCondition(margin), alerts,
+      [&](state::Alert& alert) {
+        setNumbers(margin, alert);
+        const std::string low =
+            decrement < leastLogDecrement()
+                ? fmt::format("log decrement {:.3g}, below {:g}", decrement, leastLogDecrement())
+                : fmt::format("decay rate {:.3g} 1/s, below {:g} 1/s", rate, slowestDecay());
+        alert.text = fmt::format("{}{}: {}: {}", speedText(margin.speed), aboutText(margin), low,
+                                 wayToStay(margin));
+        return "low damping";
+      },
+      [&] {
+        return fmt::format(
+            "{}: damping sufficient again, log decrement {:.3g}, decay rate {:.3g} 1/s",
+            speedText(margin.speed), decrement, rate);
+      });
 }
 
 void StabilityAlarm::updateDisagreement(const state::StabilityMargin& margin, AlertList& alerts) {
-  const bool judged = std::isfinite(margin.decay_rate);  // else the numbers were beyond a double
+  const bool evaluated = std::isfinite(margin.decay_rate);  // else numbers were beyond a double
   const AlarmCondition condition = margin.routh_disagrees ? AlarmCondition::kWarning
-                                   : judged               ? AlarmCondition::kClear
+                                   : evaluated            ? AlarmCondition::kClear
                                                           : AlarmCondition::kHold;
-  const auto change = disagreement_alarm_.update(margin.at.time, condition);
-  if (change == ConditionAlarm::Change::kCleared) {
-    alerts.clear(system_, alert_type::kRouthDisagrees, margin.at.time,
-                 fmt::format("{}{}: Routh's test and the eigenvalues agree again", system_,
-                             speedText(margin.speed)));
-  } else if (disagreement_alarm_.active() && margin.routh_disagrees) {
-    state::Alert alert = alertAbout(margin);
-    alert.type = alert_type::kRouthDisagrees;
-    alert.severity = disagreement_alarm_.severity();
-    alert.text = fmt::format(
-        "{}{}: Routh's test counts {} roots in the right half-plane, the eigenvalues {}: the "
-        "verdict is unreliable",
-        system_, speedText(margin.speed), margin.right, margin.right_by_eigenvalues);
-    alerts.raise(std::move(alert), "disagreement");
-  }
+  disagreement_.update(
+      margin.at.time, condition, alerts,
+      [&](state::Alert& alert) {
+        setNumbers(margin, alert);
+        alert.text = fmt::format(
+            "{}: Routh's test counts {} roots in the right half-plane, the eigenvalues {}: the "
+            "verdict is unreliable",
+            speedText(margin.speed), margin.right, margin.right_by_eigenvalues);
+        return "disagreement";
+      },
+      [&] {
+        return fmt::format("{}: Routh's test and the eigenvalues agree again",
+                           speedText(margin.speed));
+      });
 }
 
 void StabilityAlarm::updateSpread(const state::StabilityMargin& margin, AlertList& alerts) {
   const double part = margin.members == 0 ? 0.0
                                           : static_cast<double>(margin.members_beyond) /
                                                 static_cast<double>(margin.members);
-  const bool slow = margin.lowest_decay_rate < settings_.lowest_decay_rate;
-  const AlarmCondition condition = margin.members == 0 ? AlarmCondition::kHold
-                                   : slow || part > settings_.members_beyond
-                                       ? AlarmCondition::kWarning
-                                       : AlarmCondition::kClear;
-  const auto change = spread_alarm_.update(margin.at.time, condition);
-  if (change == ConditionAlarm::Change::kCleared) {
-    alerts.clear(
-        system_, alert_type::kUnstableWithinSpread, margin.at.time,
-        fmt::format("{}{}: stable within the tolerances again, lowest decay rate {:.3g} 1/s",
-                    system_, speedText(margin.speed), margin.lowest_decay_rate));
-  } else if (spread_alarm_.active() && isRaising(condition)) {
-    state::Alert alert = alertAbout(margin);
-    alert.type = alert_type::kUnstableWithinSpread;
-    alert.severity = spread_alarm_.severity();
-    alert.text = fmt::format(
-        "{}{}: {} of {} parameter samples have a decay rate below {:g} 1/s, the lowest found is "
-        "{:.3g} 1/s: reduce the uncertainty or increase the margin",
-        system_, speedText(margin.speed), margin.members_beyond, margin.members,
-        settings_.decay_rate_alarm, margin.lowest_decay_rate);
-    alerts.raise(std::move(alert), "within its spread");
-  }
+  const bool slow = margin.lowest_decay_rate < settings_->lowest_decay_rate;
+  const AlarmCondition condition = margin.members == 0
+                                       ? AlarmCondition::kHold
+                                       : warningIf(slow || part > settings_->members_beyond);
+  spread_.update(
+      margin.at.time, condition, alerts,
+      [&](state::Alert& alert) {
+        setNumbers(margin, alert);
+        alert.text = fmt::format(
+            "{}: {} of {} parameter samples have a decay rate below {:g} 1/s, the lowest found "
+            "is {:.3g} 1/s: reduce the uncertainty or increase the margin",
+            speedText(margin.speed), margin.members_beyond, margin.members, slowestDecay(),
+            margin.lowest_decay_rate);
+        return "within its spread";
+      },
+      [&] {
+        return fmt::format("{}: stable within the tolerances again, lowest decay rate {:.3g} 1/s",
+                           speedText(margin.speed), margin.lowest_decay_rate);
+      });
 }
 
 AlarmCondition StabilityAlarm::dampingCondition(const state::StabilityMargin& margin) const {
-  // Once unstable, UNSTABLE speaks; and a margin that is not a number says nothing.
+  // Once unstable, UNSTABLE is reported; and a margin that is not a number is unknown.
   if (verdictCondition(margin) != AlarmCondition::kClear || !requiresDamping(margin) ||
-      !std::isfinite(judgedDecayRate(margin))) {
+      !std::isfinite(dampingDecayRate(margin))) {
     return AlarmCondition::kHold;
   }
   // An overdamped system has no log decrement; one that is only marginal should have.
-  if (std::isnan(judgedLogDecrement(margin)) &&
+  if (std::isnan(dampingLogDecrement(margin)) &&
       static_cast<Verdict>(margin.verdict) != Verdict::kAsymptoticallyStable) {
     return AlarmCondition::kHold;
   }
   // A limit of zero is switched off; a NaN log decrement, overdamped, is below none.
   const auto below = [](double value, double limit) { return limit > 0.0 && value < limit; };
-  if (below(judgedLogDecrement(margin), settings_.log_decrement_warning) ||
-      below(judgedDecayRate(margin), settings_.decay_rate_alarm)) {
+  if (below(dampingLogDecrement(margin), leastLogDecrement()) ||
+      below(dampingDecayRate(margin), slowestDecay())) {
     return AlarmCondition::kWarning;
   }
-  const double beyond = 1.0 + settings_.hysteresis;
-  if (below(judgedLogDecrement(margin), beyond * settings_.log_decrement_warning) ||
-      below(judgedDecayRate(margin), beyond * settings_.decay_rate_alarm)) {
+  const double beyond = 1.0 + settings_->hysteresis;
+  if (below(dampingLogDecrement(margin), beyond * leastLogDecrement()) ||
+      below(dampingDecayRate(margin), beyond * slowestDecay())) {
     return AlarmCondition::kHold;
   }
   return AlarmCondition::kClear;
-}
-
-state::Alert StabilityAlarm::alertAbout(const state::StabilityMargin& margin) const {
-  state::Alert alert;
-  alert.system = system_;
-  alert.time = margin.at.time;
-  alert.speed = margin.speed;
-  alert.decay_rate = margin.decay_rate;
-  return alert;
 }
 
 }  // namespace whirl_twin

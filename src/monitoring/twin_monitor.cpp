@@ -1,28 +1,19 @@
 #include "monitoring/twin_monitor.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "messages/alert.h"
 #include "messages/names.h"
-#include "messages/wall_clock.h"
 
 namespace whirl_twin {
-
 namespace {
 
-std::vector<std::string> namesOf(const std::vector<SharedSystem>& systems) {
-  std::vector<std::string> names;
-  for (const SharedSystem& system : systems) {
-    names.push_back(system->spec.name);
-  }
-  return names;
-}
+constexpr std::size_t kMaxDuplicate = 500;  // bytes that an alert shows
 
-/// What controllers close around each system.
+/// The loop that controllers close around each system.
 std::vector<std::shared_ptr<const ClosedLoop>> loopsOf(const Scene& scene) {
   std::vector<std::shared_ptr<const ClosedLoop>> loops(scene.systems.size());
   for (const ClosedLoop& loop : closedLoops(scene)) {
@@ -34,176 +25,147 @@ std::vector<std::shared_ptr<const ClosedLoop>> loopsOf(const Scene& scene) {
   return loops;
 }
 
-constexpr std::size_t kLongestDuplicate = 500;  // bytes that an alert shows
+std::vector<SystemMonitor> monitorsOf(const BuiltScene& scene, const EvaluationQueue& queue,
+                                      const SharedSettings& settings) {
+  std::vector<SystemMonitor> systems;
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    systems.emplace_back(scene.systems[i], queue.speedsOf(i), settings);
+    if (const auto orbit = measuredOrbitOf(scene, i)) {
+      systems.back().measured.emplace(systems.back().name, *orbit, *settings);
+    }
+  }
+  return systems;
+}
 
-/// Of the wall clock, in so many seconds.
-std::string clockText(double from_now) {
-  return isoTime(wallClock() + std::llround(1.0e9 * from_now));
+template <class Systems>
+auto* findIn(Systems& systems, const std::string& name) {
+  const auto found = std::find_if(systems.begin(), systems.end(),
+                                  [&](const SystemMonitor& system) { return system.name == name; });
+  return found == systems.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
-TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings, Judging::Mode mode)
+TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings,
+                         EvaluationQueue::Mode mode)
     : settings_(settings),
       loops_(loopsOf(scene.scene)),
-      judging_(scene.systems, mode, loops_),
-      margin_search_(scene.systems.size(), mode),
-      data_lost_alarm_(namesOf(scene.systems), settings),
-      lcm_lost_alarm_(settings),
-      controller_alarms_(scene.scene, settings),
+      controllers_(scene.scene.controllers),
+      queue_(scene.systems, mode, loops_),
+      boundary_search_(scene.systems.size(), mode),
+      systems_(monitorsOf(scene, queue_, settings_)),
+      alarms_(makeAlarms()),
       alerts_(settings.latch),
-      restored_(settings) {
-  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
-    watches_.emplace_back(scene.systems[i], judging_.speedsOf(i), settings_);
-    if (const auto orbit = measuredOrbitOf(scene, i)) {
-      watches_.back().measured.emplace(watches_.back().name, *orbit, settings_);
-    }
+      restored_(settings_) {}
+
+TwinMonitor::SceneAlarms TwinMonitor::makeAlarms() const {
+  SceneAlarms alarms{{systemNames(), settings_}, LcmLostAlarm(settings_), {}};
+  for (const ControllerSpec& controller : controllers_) {
+    alarms.controllers.emplace(controller.name, ControllerAlarms(controller, settings_));
   }
+  return alarms;
 }
 
-void TwinMonitor::restart(double time, double wall_time) {
-  time_ = loop_time_ = time;
+void TwinMonitor::restartIfReset() {
+  if (!gate_.takeRestart()) {
+    return;
+  }
   ++run_;
   for (const state::Alert& alert : alerts_.active()) {
-    alerts_.clear(alert.system, alert.type, time_, "the simulation was reset");
+    alerts_.clear(alert.system, alert.type, gate_.time(), "the simulation was reset");
   }
-  for (SystemWatch& watch : watches_) {
-    watch.restart(settings_);
+  for (SystemMonitor& system : systems_) {
+    system.restart(settings_);
   }
-  data_lost_alarm_ = DataLostAlarm(systemNames(), settings_);
-  lcm_lost_alarm_ = LcmLostAlarm(settings_);
-  controller_alarms_.restart(settings_);
-  for (auto& [source, clock] : clocks_) {
-    clock.restartAt(time, wall_time);
-  }
-  loop_clock_.restartAt(time, wall_time);
-  resets_.begin();
+  alarms_ = makeAlarms();
   restored_.restart();
   replaced_.clear();
 }
 
 void TwinMonitor::set(const AlarmSettings& settings) {
-  settings_ = settings;
-  for (SystemWatch& watch : watches_) {
-    watch.set(settings_);
+  settings_.replace(settings);
+  for (SystemMonitor& system : systems_) {
+    system.update(settings);
   }
-  data_lost_alarm_.set(settings_);
-  lcm_lost_alarm_.set(settings_);
-  controller_alarms_.set(settings_);
-  restored_.set(settings_);
-  alerts_.setLatch(settings_.latch);
+  alerts_.setLatch(settings.latch);
 }
 
-SystemWatch* TwinMonitor::find(const std::string& system) {
-  const auto found = std::find_if(watches_.begin(), watches_.end(),
-                                  [&](const SystemWatch& watch) { return watch.name == system; });
-  return found == watches_.end() ? nullptr : &*found;
+const SystemMonitor* TwinMonitor::find(const std::string& name) const {
+  return findIn(systems_, name);
+}
+
+SystemMonitor* TwinMonitor::find(const std::string& name) {
+  return findIn(systems_, name);
+}
+
+std::string TwinMonitor::problemOf(const SystemMonitor& system, double wall_time,
+                                   bool paused) const {
+  std::string problem = gate_.uncertainty(wall_time);
+  if (problem.empty() && system.isMeasured()) {
+    problem = system.measured->problem(wall_time, paused);
+  }
+  if (problem.empty() && (!system.isMeasured() || system.quality.received())) {
+    problem = system.quality.problem(wall_time, paused);
+  }
+  if (problem.empty() && !system.uncertainty().empty()) {
+    problem = "cannot be evaluated: " + printable(system.uncertainty());
+  }
+  return problem.empty() ? system.alarms.voted.problem(wall_time, paused) : problem;
 }
 
 std::vector<std::string> TwinMonitor::notOk(double wall_time, bool paused) const {
-  std::vector<std::string> why;
-  for (const SystemWatch& watch : watches_) {
-    if (const std::string all = uncertainty(wall_time); !all.empty()) {
-      why.push_back(all);
-      continue;
-    }
-    std::string own = watch.isMeasured() ? watch.measured->notOk(wall_time, paused) : "";
-    if (own.empty() && (!watch.isMeasured() || watch.quality.heard())) {
-      own = watch.quality.notOk(wall_time, paused);
-    }
-    if (own.empty() && !watch.uncertainty().empty()) {
-      own = "cannot be evaluated: " + printable(watch.uncertainty());
-    }
-    why.push_back(own.empty() ? watch.voted_alarm.notOk(wall_time, paused) : own);
+  std::vector<std::string> problems;
+  for (const SystemMonitor& system : systems_) {
+    problems.push_back(problemOf(system, wall_time, paused));
   }
-  return why;
-}
-
-std::string TwinMonitor::uncertainty(double wall_time) const {
-  if (!uncertain_.empty()) {
-    return uncertain_;
-  }
-  return resets_.isAmbiguous(wall_time)
-             ? "two twins publish at the same simulated time and cannot be distinguished"
-             : "";
+  return problems;
 }
 
 void TwinMonitor::reportDuplicate(double wall_time) {
-  const std::string found = resets_.duplicate(wall_time);
+  const std::string found = duplicate(wall_time);
   const bool known = alerts_.find(alert_type::kEverybody, alert_type::kDuplicateTwin) != nullptr;
   if (!found.empty()) {
     state::Alert alert;
     alert.system = alert_type::kEverybody;
     alert.type = alert_type::kDuplicateTwin;
     alert.severity = state::Severity::kWarning;
-    alert.time = time_;
-    alert.text = printable(found, kLongestDuplicate);
+    alert.time = time();
+    alert.text = printable(found, kMaxDuplicate);
     alerts_.raise(std::move(alert), found);
-  } else if (known && !resets_.hasRival(wall_time)) {
-    alerts_.clear(alert_type::kEverybody, alert_type::kDuplicateTwin, time_,
+  } else if (known && !gate_.run().hasDuplicate(wall_time)) {
+    alerts_.clear(alert_type::kEverybody, alert_type::kDuplicateTwin, time(),
                   "only one publisher remains");
   }
 }
 
 void TwinMonitor::tick(double wall_time, bool paused) {
-  takeJudgements();
-  wall_time_ = wall_time;
+  takeResults();
+  gate_.setWallTime(wall_time);
   reportDuplicate(wall_time);
-  for (SystemWatch& watch : watches_) {
+  for (SystemMonitor& system : systems_) {
     if (paused) {
       continue;
     }
-    watch.voted_alarm.tick(wall_time);
-    const bool alone = watch.isMeasured() && !watch.quality.heard();
-    if (watch.isMeasured() && !watch.measured->isFit(wall_time)) {
-      watch.holdMotion();
+    system.alarms.voted.tick(wall_time);
+    const bool alone = system.isMeasured() && !system.quality.received();
+    const bool fit = !system.isMeasured() || system.measured->isFit(wall_time);
+    if (!fit) {
+      system.alarms.holdMotion();
     }
-    if (alone ? !watch.measured->isFit(wall_time) : watch.quality.isStale(wall_time)) {
-      isFit(watch, false, time_);
+    if (alone ? !fit : system.quality.isStale(wall_time)) {
+      useIf(false, system, time());
     }
   }
-  data_lost_alarm_.tick(wall_time, time_, paused, alerts_);
-  liftInhibitions(wall_time);
+  alarms_.data_lost.tick(wall_time, time(), paused, alerts_);
+  inhibitions_.update(wall_time, time(), alerts_);
 }
 
 void TwinMonitor::remember(const AlarmMemory& memory) {
-  restored_.begin(memory, alerts_);
+  restored_.restore(memory, alerts_);
   for (const state::Alert& alert : memory.alerts) {
     if (alert.type == alert_type::kInhibited || alert.type == alert_type::kTripMultiplied) {
       alerts_.clear(alert.system, alert.type, alert.time,
                     fmt::format("{}: ended when the monitor restarted", alert.system));
-    }
-  }
-}
-
-void TwinMonitor::liftInhibitions(double wall_time) {
-  for (auto held = inhibitions_.begin(); held != inhibitions_.end();) {
-    if (wall_time >= held->second.until) {
-      alerts_.setInhibited(held->first, false);
-      alerts_.clear(held->first, alert_type::kInhibited, time_,
-                    fmt::format("alerts of {} are active again: inhibited by {} {}", held->first,
-                                held->second.by, held->second.times));
-      held = inhibitions_.erase(held);
-    } else {
-      ++held;
-    }
-  }
-  reportInhibitions();
-}
-
-void TwinMonitor::reportInhibitions() {
-  for (const auto& [system, held] : inhibitions_) {
-    const std::string text =
-        fmt::format("alerts of {} are inhibited by {} {}", system, held.by, held.times);
-    const state::Alert* const known = alerts_.find(system, alert_type::kInhibited);
-    if (known == nullptr || known->text != text) {
-      state::Alert alert;
-      alert.type = alert_type::kInhibited;
-      alert.system = system;
-      alert.severity = state::Severity::kWarning;
-      alert.time = time_;
-      alert.text = text;
-      alerts_.raise(alert, text);
     }
   }
 }
@@ -213,78 +175,49 @@ std::optional<double> TwinMonitor::inhibit(const std::string& system, double dur
   if (!system.empty() && find(system) == nullptr) {
     return std::nullopt;
   }
-  const double lasts = std::min(duration, settings_.max_inhibition);
-  const std::string times =
-      lasts > 0.0 ? fmt::format("since {} until {}", clockText(0.0), clockText(lasts)) : "";
-  for (const SystemWatch& watch : watches_) {
-    const bool held = inhibitions_.count(watch.name) > 0;
-    if ((system.empty() || watch.name == system) && (lasts > 0.0 || held)) {
-      if (lasts > 0.0) {
-        inhibitions_[watch.name] = {wall_time + lasts, by, times};
-      } else {
-        inhibitions_[watch.name].until = wall_time;
-        inhibitions_[watch.name].times += fmt::format(", ended by {} at {}", by, clockText(0.0));
-      }
-      alerts_.setInhibited(watch.name, true);
+  const double lasts = std::min(duration, settings_->max_inhibition);
+  for (const SystemMonitor& one : systems_) {
+    if (system.empty() || one.name == system) {
+      inhibitions_.set(one.name, lasts, wall_time, by, alerts_);
     }
   }
-  liftInhibitions(wall_time);  // a duration of 0 ends now
+  inhibitions_.update(wall_time, time(), alerts_);  // a duration of 0 ends now
   return lasts;
 }
 
-std::string TwinMonitor::heldBack() const {
-  std::vector<std::string> systems;
-  for (const auto& [system, held] : inhibitions_) {
-    systems.push_back(system);
-  }
-  return systems.empty()
-             ? ""
-             : fmt::format("alerts of {} are inhibited by {} {}", fmt::join(systems, ", "),
-                           inhibitions_.begin()->second.by, inhibitions_.begin()->second.times);
-}
-
 bool TwinMonitor::measures(const std::string& system) const {
-  return std::any_of(watches_.begin(), watches_.end(), [&](const SystemWatch& watch) {
-    return watch.name == system && watch.isMeasured();
-  });
+  const SystemMonitor* const found = find(system);
+  return found != nullptr && found->isMeasured();
 }
 
 std::vector<state::WhirlState> TwinMonitor::measuredMotion(const std::string& system,
                                                            const std::string& source,
                                                            double wall_time) const {
-  for (const SystemWatch& watch : watches_) {
-    if (watch.name == system && watch.isMeasured() && watch.measured->listensTo(source) &&
-        watch.measured->isFit(wall_time)) {
-      return watch.measured->motion();
-    }
-  }
-  return {};
+  const SystemMonitor* const found = find(system);
+  const bool usable =
+      measures(system) && found->measured->listensTo(source) && found->measured->isFit(wall_time);
+  return usable ? found->measured->motion() : std::vector<state::WhirlState>();
 }
 
 std::optional<OrderVector> TwinMonitor::slowRoll(const std::string& system) const {
-  for (const SystemWatch& watch : watches_) {
-    if (watch.name == system && watch.isMeasured()) {
-      return watch.measured->slowRoll();
-    }
-  }
-  return std::nullopt;
+  return measures(system) ? find(system)->measured->slowRoll() : std::nullopt;
 }
 
 std::vector<std::string> TwinMonitor::systemNames() const {
   std::vector<std::string> names;
-  for (const SystemWatch& watch : watches_) {
-    names.push_back(watch.name);
+  for (const SystemMonitor& system : systems_) {
+    names.push_back(system.name);
   }
   return names;
 }
 
 state::MonitorStatus TwinMonitor::status(double wall_time, bool paused) {
-  takeJudgements();
+  takeResults();
   state::MonitorStatus status;
-  status.at.step = step_;
-  status.at.time = time_;
+  status.at.step = gate_.step();
+  status.at.time = time();
   status.paused = paused;
-  const double busy = judging_.busy();
+  const double busy = queue_.busy();
   if (wall_time > status_at_) {
     status.load = (busy - status_busy_) / (wall_time - status_at_);
   }
@@ -295,11 +228,10 @@ state::MonitorStatus TwinMonitor::status(double wall_time, bool paused) {
     status.dangers += alert.severity == state::Severity::kDanger ? 1 : 0;
   }
   status.not_ok = notOk(wall_time, paused);
-  for (const SystemWatch& watch : watches_) {
-    status.system.push_back(watch.name);
-    status.verdict_age.push_back(wall_time - watch.verdict_of);
-    const auto held = inhibitions_.find(watch.name);
-    status.inhibited.push_back(held == inhibitions_.end() ? 0.0 : held->second.until - wall_time);
+  for (const SystemMonitor& system : systems_) {
+    status.system.push_back(system.name);
+    status.verdict_age.push_back(wall_time - system.verdict_of);
+    status.inhibited.push_back(inhibitions_.remaining(system.name, wall_time));
   }
   return status;
 }

@@ -5,8 +5,8 @@
 
 #include <utility>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "scene/yaml_file.h"
 
 namespace whirl_twin {
@@ -19,10 +19,10 @@ std::string shown(const SceneLines& scene, const std::string& path) {
 
 }  // namespace
 
-void WatchedScene::take(const state::SceneText& told, std::optional<std::int64_t> started) {
+void WatchedScene::take(const state::SceneText& reported, std::optional<std::int64_t> started) {
   follow(started);
-  newest_ = told;
-  const std::string difference = differenceOf(told);
+  newest_ = reported;
+  const std::string difference = differenceOf(reported);
   if (difference.empty()) {
     agreed_ = true;
     mismatch_.clear();
@@ -43,12 +43,12 @@ void WatchedScene::follow(std::optional<std::int64_t> started) {
   }
 }
 
-std::string WatchedScene::differenceOf(const state::SceneText& told) const {
+std::string WatchedScene::differenceOf(const state::SceneText& reported) const {
   SceneLines its;
   try {
-    its = sceneLines(readYamlText(fmt::format("{}", fmt::join(told.line, "\n")), told.source,
-                                  "a scene", "systems"));
-  } catch (const Refusal& why) {
+    its = sceneLines(readYamlText(fmt::format("{}", fmt::join(reported.line, "\n")),
+                                  reported.source, "a scene", "systems"));
+  } catch (const InputError& why) {
     return fmt::format("the scene of the twin cannot be read: {}", printable(why.what(), 300));
   }
   SceneLines all = its;
@@ -60,7 +60,7 @@ std::string WatchedScene::differenceOf(const state::SceneText& told) const {
       return fmt::format(
           "the scene of the twin ({}) differs from that of the monitor ({}): {} is {} there, {} "
           "here; no evaluation until the monitor is started with the scene of the twin",
-          printable(told.source), printable(source_), printable(path), shown(its, path),
+          printable(reported.source), printable(source_), printable(path), shown(its, path),
           shown(own_, path));
     }
   }

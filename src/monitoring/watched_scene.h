@@ -1,6 +1,5 @@
-// Whether the twin that is watched runs the scene that the monitor judges by: a twin sends its
-// scene as text, and it is compared as sceneLines() has it. A scene that was told by a second twin
-// beside the one watched is of no account.
+// Whether the monitored twin runs the scene of the monitor: a twin publishes its scene as text, and
+// it is compared by sceneLines(). A scene from a duplicate publisher is ignored.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +17,16 @@ class WatchedScene {
   WatchedScene(SceneLines own, std::string source)
       : own_(std::move(own)), source_(std::move(source)) {}
 
-  /// A twin says which scene it runs; started: that of the run that is watched, as far as it is
-  /// known.
-  void take(const state::SceneText& told, std::optional<std::int64_t> started);
-  /// Another run is watched: what was told last is its scene.
+  /// A twin reports its scene; started: that of the monitored run, as far as it is known.
+  void take(const state::SceneText& reported, std::optional<std::int64_t> started);
+  /// A different run is monitored: the scene reported last is its scene.
   void follow(std::optional<std::int64_t> started);
-  bool told() const { return newest_.has_value(); }
-  /// Where the scenes differ, a sentence; "": they do not, or none was told.
+  bool received() const { return newest_.has_value(); }
+  /// Where the scenes differ, a sentence; "": they do not, or none was reported.
   const std::string& mismatch() const { return mismatch_; }
 
  private:
-  std::string differenceOf(const state::SceneText& told) const;
+  std::string differenceOf(const state::SceneText& reported) const;
 
   SceneLines own_;
   std::string source_;

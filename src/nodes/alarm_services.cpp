@@ -13,7 +13,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint32_t kAlarmQueue = 100;  // commands of a sender that is ahead
+constexpr std::uint32_t kAlarmQueue = 100;  // commands
 
 template <class Response>
 bool tell(const CommandAnswer& given, Response& response) {

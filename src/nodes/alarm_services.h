@@ -1,5 +1,5 @@
-// What people tell the monitor about its alarms: the services ~acknowledge, ~reset_alarms and
-// ~inhibit, and AlarmCommand by topic and by LCM. What cannot be meant is refused, and counted.
+// Operator commands to the alarms of the monitor: the services ~acknowledge, ~reset_alarms and
+// ~inhibit, and AlarmCommand by topic and by LCM. Invalid commands are rejected and counted.
 #pragma once
 
 #include <ros/ros.h>
@@ -21,20 +21,20 @@ namespace whirl_twin {
 
 class AlarmServices {
  public:
-  /// Advertises under `own`, the node itself, and listens below `twin`. wall_time: the clock the
-  /// monitor is told [s]; was_reset: called when the alarms were.
+  /// Advertises under `own`, the node itself, and subscribes below `twin`. wall_time: the clock of
+  /// the monitor [s]; was_reset: called after a reset of the alarms.
   AlarmServices(TwinMonitor& monitor, const ros::NodeHandle& own, ros::NodeHandle twin,
                 std::function<double()> wall_time, std::function<void()> was_reset);
 
-  /// From now on by LCM, too; says so in the log where that cannot receive.
+  /// Also subscribes by LCM; logs a warning if LCM cannot receive.
   void listen(const std::string& lcm_url, const std::string& lcm_prefix);
-  /// Takes what has arrived by LCM; to be called many times a second.
+  /// Handles the commands received by LCM; to be called many times a second.
   void receive();
 
-  /// Commands by topic and LCM; a service tells who calls it.
+  /// Commands by topic and LCM; those by service are answered to the caller and not counted.
   std::uint64_t taken() const { return taken_; }
   std::uint64_t refused() const;
-  /// Those that came by LCM and were no messages; null where it does not listen there.
+  /// Malformed payloads received by LCM; null without an LCM subscription.
   const RefusedPayloads* refusedPayloads() const {
     return receiver_ ? &receiver_->refused() : nullptr;
   }
@@ -43,13 +43,13 @@ class AlarmServices {
   template <class Event>
   ros::ServiceServer advertise(ros::NodeHandle& node, const std::string& name,
                                bool (AlarmServices::*serve)(Event&));
-  // With who calls.
+  // Service events, for the name of the caller.
   bool acknowledge(ros::ServiceEvent<Acknowledge::Request, Acknowledge::Response>& call);
   bool reset(ros::ServiceEvent<std_srvs::Trigger::Request, std_srvs::Trigger::Response>& call);
   bool inhibit(ros::ServiceEvent<Inhibit::Request, Inhibit::Response>& call);
   void take(const state::AlarmCommand& command, const std::string& by);
   void refuse(const std::string& why);
-  /// Carries it out; what others have to know of it is logged and kept.
+  /// Executes a command, and records it in the log and the history if operators need it.
   CommandAnswer answer(const state::AlarmCommand& command, const std::string& by);
 
   TwinMonitor& monitor_;

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "scene/node_reader.h"
 #include "scene/signal_names.h"
 #include "transport/ros_parameters.h"
@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-/// What rosparam makes of a file.
+/// Converts a parameter tree, as rosparam loads it from a file.
 XmlRpc::XmlRpcValue toParameter(const YAML::Node& node) {
   XmlRpc::XmlRpcValue value;
   if (node.IsMap()) {
@@ -77,7 +77,7 @@ bool AlarmSettingsService::set(SetAlarmSettings::Request& request,
       tellParameters(before);
       was_changed_(request.settings);
       ROS_WARN("alarm settings changed: %s", settings_.text().c_str());
-    } catch (const Refusal& wrong) {
+    } catch (const InputError& wrong) {
       response.success = false;
       response.message = wrong.what();
     }
@@ -93,7 +93,7 @@ std::string AlarmSettingsService::obey(const YAML::Node& all) {
       was_changed_(settings_.text());
       ROS_WARN("alarm settings changed by parameters: %s", settings_.text().c_str());
     }
-  } catch (const Refusal& wrong) {
+  } catch (const InputError& wrong) {
     return wrong.what();
   }
   return "";

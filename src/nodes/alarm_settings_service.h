@@ -1,6 +1,6 @@
-// ~set_alarm_settings: the settings of the monitor, changed while it runs. The parameters of the
-// node follow, so that a monitor that comes back has what was set last; set by themselves they are
-// obeyed, too.
+// ~set_alarm_settings: changes the settings of the monitor while it runs. The parameters of the
+// node are updated, so that a restarted monitor has the latest settings; changes of these
+// parameters by `rosparam set` are applied, too.
 #pragma once
 
 #include <ros/ros.h>
@@ -10,25 +10,25 @@
 #include <string>
 #include <vector>
 
-#include "monitoring/live_alarm_settings.h"
+#include "monitoring/alarm_settings_reader.h"
 #include "monitoring/twin_monitor.h"
 
 namespace whirl_twin {
 
-/// Parameters of the node that are no settings of the alarms.
+/// Parameters of the node that are not alarm settings.
 std::vector<std::string> parametersAtStart();
-/// The settings that the node's parameters have. Throws Refusal for parameters of the node that are
-/// unknown, or out of range.
+/// The settings by the node's parameters. Throws InputError for parameters of the node that are
+/// unknown or out of range.
 LiveAlarmSettings alarmSettingsOf(const BuiltScene& scene);
 
 class AlarmSettingsService {
  public:
-  /// Advertises under `own`, the node itself. was_changed: called with the text of a change.
+  /// Advertises under `own`, the node itself. was_changed: called with a description of a change.
   AlarmSettingsService(TwinMonitor& monitor, LiveAlarmSettings& settings, ros::NodeHandle own,
                        std::function<void(const std::string&)> was_changed);
 
-  /// Parameters of the node that were set without the service, all settings of the alarms; returns
-  /// why they are refused, or "".
+  /// Applies parameters of the node that were changed without the service, all of the settings;
+  /// returns why they are rejected, or "".
   std::string obey(const YAML::Node& all);
 
  private:

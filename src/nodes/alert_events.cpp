@@ -51,7 +51,7 @@ void KeptHistory::keepSettings(const std::string& text) {
 void KeptHistory::keepEvents() {
   for (state::Alert event : monitor_.alerts().takeEvents()) {
     if (history_) {
-      event.stamp = wallClock();  // beside the simulated time that it has
+      event.stamp = wallClock();  // wall clock, in addition to the simulated time
       history_->write(event);
     }
     event.stamp = stampNow();
@@ -59,7 +59,7 @@ void KeptHistory::keepEvents() {
   }
 }
 
-/// Each once: the alarms go on without.
+/// Each problem once: the alarms continue without a history.
 void KeptHistory::reportProblem() {
   if (history_->problem() == reported_) {
     return;
@@ -97,7 +97,7 @@ void AlertEvents::tellAgain(const std::vector<state::Alert>& active, double now)
   }
   next_ = now + kPeriod;
   for (state::Alert alert : active) {
-    alert.time = newest_;  // an older one would be of a run that has begun anew
+    alert.time = newest_;  // an earlier time would indicate a restarted run
     lcm_.publish(alert);
   }
 }

@@ -1,5 +1,5 @@
-// What happens to alerts, on LCM and in the node's log. LCM latches nothing and loses what it
-// likes: the alerts that stand are told again every few seconds.
+// Publishes events of alerts on LCM and in the node's log. LCM has no latched topics and may lose
+// messages: active alerts are republished every few seconds.
 #pragma once
 
 #include <optional>
@@ -18,28 +18,28 @@ class AlertEvents {
   explicit AlertEvents(LcmPublisher& lcm) : lcm_(lcm) {}
 
   void tell(const state::Alert& event);
-  /// Those that stand, where it is time for it; now [s] is of a clock that nobody sets.
+  /// Republishes the active alerts when due; now [s] is of a monotonic clock.
   void tellAgain(const std::vector<state::Alert>& active, double now);
 
  private:
   LcmPublisher& lcm_;
-  double newest_ = 0.0;  // [s], simulated, of the events told
+  double newest_ = 0.0;  // [s], simulated, of the published events
   double next_ = 0.0;    // [s]
 };
 
-// The history of the alarms that the monitor keeps in the file ~history, and what is told of
-// events.
+// Saves the alarm history of the monitor in the file ~history, and publishes the events.
 
 class KeptHistory {
  public:
-  /// Reads the file, unless `path` is empty, and gives its history to the monitor.
+  /// Reads the file, unless `path` is empty, and restores the monitor's history from it.
   KeptHistory(TwinMonitor& monitor, AlertEvents& events, const std::string& path);
 
-  /// What has happened to alerts since, which run is watched, and what could not be written before.
+  /// Saves new events and a change of the monitored run, and retries what could not be written
+  /// before.
   void keep();
   void keepReset();
   void keepSettings(const std::string& text);
-  /// Why nothing is kept at present; "" as long as it is, or where no file is asked for.
+  /// Why the history is not saved at present; "" if it is, or without a file.
   std::string problem() const { return history_ ? history_->problem() : ""; }
 
  private:
@@ -49,8 +49,8 @@ class KeptHistory {
   TwinMonitor& monitor_;
   AlertEvents& events_;
   std::optional<AlarmHistory> history_;
-  std::string reported_;        ///< the problem, as it was reported last
-  std::optional<TwinRun> run_;  ///< as the history knows it
+  std::string reported_;        ///< the problem reported last
+  std::optional<TwinRun> run_;  ///< the last run in the history
 };
 
 }  // namespace whirl_twin

@@ -14,7 +14,7 @@
 namespace whirl_twin {
 namespace {
 
-/// "" for nothing.
+/// "" for no value.
 std::string textOf(const YAML::Node& node) {
   if (!node.IsDefined()) {
     return "";

@@ -1,5 +1,5 @@
-// Private parameters that somebody sets while a node runs (`rosparam set`): they are obeyed, or it
-// is said, in the log and in the diagnostics, that they are not, until they are put back.
+// Private parameters changed while a node runs (`rosparam set`): they are applied, or the log and
+// the diagnostics report that they are not, until they are restored.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -15,17 +15,17 @@ namespace whirl_twin {
 
 class ChangedParameters {
  public:
-  /// Takes the parameters that may change as they are now, all of them; returns why they are
-  /// refused, or "".
+  /// Applies the changeable parameters, all with their present values; returns why they are
+  /// rejected, or "".
   using Obey = std::function<std::string(const YAML::Node& all)>;
 
-  /// Of a node that reads all of its parameters at its start.
+  /// For a node that reads all of its parameters at its start.
   explicit ChangedParameters(const MasterWatch& master);
-  /// Of one that reads only `at_start` then.
+  /// For a node that reads only `at_start` then.
   ChangedParameters(const MasterWatch& master, std::vector<std::string> at_start, Obey obey);
 
-  /// Looks at what the master holds; to be called about once a second, as the diagnostics
-  /// "private parameters" do.
+  /// Adds the diagnostics "private parameters", which compare the parameters on the master; they
+  /// must be updated about once a second.
   void report(diagnostic_updater::Updater& diagnostics);
 
  private:
@@ -34,9 +34,9 @@ class ChangedParameters {
 
   const MasterWatch& master_;
   std::vector<std::string> at_start_;
-  Obey obey_;  // none: all are read at the start
+  Obey obey_;  // empty: all are read at the start
   YAML::Node started_with_;
-  std::string live_;  // as they were last
+  std::string live_;  // values at the last poll
   std::string refusal_;
   std::string told_;
 };

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -33,11 +33,11 @@ CheckpointSaver::CheckpointSaver(LiveTwin& live, SceneLines scene, std::string p
     return;
   }
   checkpoint_.scene = std::move(scene);
-  // What cannot be saved is known before it runs, and there is a file from the beginning.
+  // Saves once before the run: reports early that the state cannot be saved, and the file exists.
   try {
     checkpoint_.twin = imageOf(live.atRest());
-  } catch (const Refusal& error) {
-    throw Refusal(std::string("checkpoint: ") + error.what());
+  } catch (const InputError& error) {
+    throw InputError(std::string("checkpoint: ") + error.what());
   }
   services_.takeAtRest(checkpoint_);
   take(publisher_.savedAtEnd());

@@ -1,6 +1,6 @@
-// Saves the twin in a file, every so often while it runs and when it has ended. The loop takes its
-// state between two steps, the publisher what it knows beside it; a thread of its own writes the
-// file, which others do not wait for.
+// Saves checkpoints of the twin to a file, periodically and at the end. The loop copies its state
+// between two steps, the publisher adds its own; a separate thread writes the file, so that neither
+// waits for it.
 #pragma once
 
 #include <chrono>
@@ -14,14 +14,14 @@ namespace whirl_twin {
 
 class CheckpointSaver {
  public:
-  /// path: empty, nothing is saved. What is referred to outlives it. period [s]. Throws Refusal
-  /// where the twin's state cannot be saved, RunFailure where the file cannot be written.
+  /// path: empty: nothing is saved. The referenced objects must outlive it. period [s]. Throws
+  /// InputError if the twin's state cannot be saved, RunFailure if the file cannot be written.
   CheckpointSaver(LiveTwin& live, SceneLines scene, std::string path, double period,
                   TwinServices& services, RecordPublisher& publisher);
 
-  /// For the thread of the services, often.
+  /// To be called often, by the thread of the services.
   void saveIfDue();
-  /// The loop and the publisher have ended.
+  /// After the loop and the publisher have ended.
   void saveAtEnd();
 
  private:
@@ -37,7 +37,7 @@ class CheckpointSaver {
   RecordPublisher& publisher_;
   Checkpoint checkpoint_;
   Clock::time_point next_;
-  std::future<std::string> writing_;  // what went wrong; "" nothing
+  std::future<std::string> writing_;  // the error; "" without one
 };
 
 }  // namespace whirl_twin

@@ -1,6 +1,6 @@
-// command_bridge_node: commands to a twin between ROS and LCM. Where the simulation is, it takes
-// commands that come by LCM to the services of the simulation, for one commander at a time; where
-// people are, it has those services, and sends what they are asked for by LCM.
+// command_bridge_node: forwards commands between ROS and LCM. On the side of the simulation, it
+// calls the services of the simulation for commands that arrive by LCM, from one commander at a
+// time; on the side of the operators, it offers these services, and sends their requests by LCM.
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,18 +13,18 @@
 #include "nodes/changed_parameters.h"
 #include "nodes/command_channels.h"
 #include "nodes/command_sender.h"
-#include "nodes/command_taker.h"
+#include "nodes/duplicate_publishers.h"
+#include "nodes/lcm_command_server.h"
 #include "nodes/node_parameters.h"
 #include "nodes/refusal_report.h"
 #include "nodes/rising_count.h"
-#include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 
 namespace whirl_twin {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll{20};
-constexpr int kThreads = 4;  // services at a time
+constexpr int kThreads = 4;  // concurrent services
 const ros::WallDuration kReportPeriod(1.0);
 struct BridgeParameters {
   std::string role = "take";
@@ -65,12 +65,12 @@ void run() {
   BridgeParameters settings;
   table(settings).read();
   CommandChannels channels(settings.lcm_url, settings.lcm_prefix);
-  std::unique_ptr<CommandTaker> taker;
+  std::unique_ptr<LcmCommandServer> taker;
   std::unique_ptr<CommandSender> sender;
   if (settings.role == "take") {
-    taker = std::make_unique<CommandTaker>(channels, nameOfThisProcess(),
-                                           ros::names::resolve(settings.simulation), settings.lease,
-                                           settings.played);
+    taker = std::make_unique<LcmCommandServer>(channels, nameOfThisProcess(),
+                                               ros::names::resolve(settings.simulation),
+                                               settings.lease, settings.played);
   } else {
     sender = std::make_unique<CommandSender>(channels, ros::NodeHandle("~"), nameOfThisProcess(),
                                              settings.timeout);
@@ -103,7 +103,10 @@ void run() {
     } else {
       status.summary(DiagnosticStatus::OK, "commands are sent to LCM");
       if (refused.roseLately(sender->unanswered(), now)) {
-        status.mergeSummary(DiagnosticStatus::WARN, "commands are not answered");
+        status.mergeSummary(
+            DiagnosticStatus::WARN,
+            "commands are not answered within ~timeout: check that a bridge with ~role take "
+            "uses the same ~lcm_url and ~lcm_prefix");
       }
       status.add("sent", sender->sent());
       status.add("not answered", sender->unanswered());

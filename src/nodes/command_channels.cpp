@@ -9,7 +9,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kMostMessagesAtOnce = 100;
+constexpr int kMaxMessagesAtOnce = 100;
 
 }  // namespace
 
@@ -51,20 +51,20 @@ void CommandChannels::take(std::function<void(const command_answer_t&)> handler)
 }
 
 void CommandChannels::listen(const std::string& channel, lcm_msg_handler_t handler) {
-  // LCM's C function says when it fails; the C++ one does not.
+  // LCM's C function reports a failure; the C++ wrapper does not.
   if (lcm_subscribe(lcm_->getUnderlyingLCM(), channel.c_str(), handler, this) == nullptr) {
     throw LcmNotAvailable("LCM cannot receive " + channel + " (is multicast enabled?)");
   }
 }
 
 void CommandChannels::receive(std::chrono::milliseconds timeout) {
-  handleArrived(*lcm_, timeout, kMostMessagesAtOnce);
+  handleArrived(*lcm_, timeout, kMaxMessagesAtOnce);
 }
 
 template <class Type>
 void CommandChannels::pass(const lcm_recv_buf_t* buffer, const char* channel, const char* layout,
                            const std::function<void(const Type&)>& handler) {
-  // Called from C: nothing may be thrown through it.
+  // Called from C: no exception may leave it.
   try {
     handler(decodePayload<Type>(layout, buffer->data, buffer->data_size));
   } catch (const RejectedMessage& why) {

@@ -1,4 +1,4 @@
-// Commands to a twin and their answers on LCM: sent, and taken apart with care.
+// Sends and decodes commands to a twin and their answers on LCM.
 #pragma once
 
 #include <chrono>
@@ -23,17 +23,17 @@ class CommandChannels {
   /// Throws LcmNotAvailable.
   CommandChannels(const std::string& url, std::string prefix);
 
-  // Any thread; utime is filled in.
+  // Any thread; the functions set utime.
   void send(twin_command_t command);
   void send(command_answer_t answer);
 
-  // One thread.
+  // One thread only.
 
   /// handler is called from receive(), and must not throw. Throws LcmNotAvailable.
   void take(std::function<void(const twin_command_t&)> handler);
   void take(std::function<void(const command_answer_t&)> handler);
   void receive(std::chrono::milliseconds timeout);
-  /// What was no such message.
+  /// Malformed payloads.
   const RefusedPayloads& malformed() const { return malformed_; }
 
  private:

@@ -1,5 +1,5 @@
-// The services of simulation_node as twin_command_t and command_answer_t: which field is which,
-// said once for both directions.
+// Mapping between the services of simulation_node and twin_command_t and command_answer_t, defined
+// once for both directions.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ struct ServiceKind {
   using Service = T;
 };
 
-/// visit(name, ServiceKind<Service>) for every service that is a command.
+/// Calls visit(name, ServiceKind<Service>) for every service that is a command.
 template <class Visit>
 void eachCommand(Visit&& visit) {
   visit("pause", ServiceKind<std_srvs::Trigger>());
@@ -100,11 +100,11 @@ void fieldsOf(V& visit, SetRealTimeFactorRequest& r) {
 template <class V>
 void fieldsOf(V&, SetRealTimeFactorResponse&) {}
 
-/// From a service to a message.
-template <class Told>
+/// Copies a service into a message.
+template <class Message>
 class TellFields {
  public:
-  explicit TellFields(Told& to) : to_(to) {}
+  explicit TellFields(Message& to) : to_(to) {}
 
   template <class Number>
   void number(const char* key, const Number& value) {
@@ -126,14 +126,14 @@ class TellFields {
   void step(std::int64_t step) { to_.step = step; }
 
  private:
-  Told& to_;
+  Message& to_;
 };
 
-/// From a message to a service. finish() throws RejectedMessage with all that is wrong.
-template <class Told>
+/// Copies a message into a service. finish() throws RejectedMessage with all errors.
+template <class Message>
 class ReadFields {
  public:
-  explicit ReadFields(const Told& from) : from_(from) {}
+  explicit ReadFields(const Message& from) : from_(from) {}
 
   template <class Number>
   void number(const char* key, Number& value) {
@@ -196,10 +196,10 @@ class ReadFields {
     value = static_cast<Number>(from);
   }
 
-  const Told& from_;
+  const Message& from_;
   std::vector<std::string> known_, faults_;
   bool free_ = false;      // keys are names of the scene
-  std::size_t taken_ = 0;  // of these
+  std::size_t taken_ = 0;  // keys read
 };
 
 }  // namespace whirl_twin

@@ -1,5 +1,5 @@
-// The services of a simulation that is elsewhere: each goes out by LCM as a command, and is
-// answered when its answer has come.
+// Services of a remote simulation: each request is sent by LCM as a command, and answered when its
+// answer arrives.
 #pragma once
 
 #include <ros/ros.h>
@@ -19,8 +19,8 @@ namespace whirl_twin {
 
 class CommandSender {
  public:
-  /// Advertises under `node`; its services may be called from several threads. timeout [s]: how
-  /// long an answer is waited for. `channels` outlives it.
+  /// Advertises under `node`; its services may be called from several threads. timeout [s]: for an
+  /// answer. `channels` must outlive it.
   CommandSender(CommandChannels& channels, ros::NodeHandle node, std::string name, double timeout);
 
   // Any thread.
@@ -37,9 +37,9 @@ class CommandSender {
   CommandChannels& channels_;
   std::string name_;
   double timeout_;            // [s]
-  mutable std::mutex mutex_;  // all below but the servers
+  mutable std::mutex mutex_;  // guards all below but the servers
   std::condition_variable came_;
-  std::map<std::int64_t, std::optional<command_answer_t>> awaited_;  // by number
+  std::map<std::int64_t, std::optional<command_answer_t>> awaited_;  // by command number
   std::int64_t number_ = 0;
   std::uint64_t unanswered_ = 0;
   TimingHistogram latency_;

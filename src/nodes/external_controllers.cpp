@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t kControllerQueue = 1000;
 constexpr const char* kCommandEnding = "_COMMAND";
-constexpr int kMostCommandsAtOnce = 1000;
+constexpr int kMaxCommandsAtOnce = 1000;
 constexpr std::chrono::microseconds kControllerPoll{100};
 
 std::string upper(std::string text) {
@@ -79,7 +79,7 @@ void ExternalControllers::advertise(Connection& connection, ros::NodeHandle& nod
                                         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
 }
 
-/// A number that says no more: it is taken to answer the newest sample.
+/// A command without a sample number: it counts as the answer to the newest sample.
 void ExternalControllers::advertiseValue(Connection& connection, ros::NodeHandle& node) {
   const boost::function<void(const std_msgs::Float64::ConstPtr&)> callback =
       [this, &connection](const std_msgs::Float64::ConstPtr& message) {
@@ -132,7 +132,7 @@ void ExternalControllers::run() {
     }
     queue_.callAvailable(ros::WallDuration(0.0));
     if (lcm_) {
-      handleArrived(*lcm_, std::chrono::microseconds(0), kMostCommandsAtOnce);
+      handleArrived(*lcm_, std::chrono::microseconds(0), kMaxCommandsAtOnce);
     }
     std::this_thread::sleep_for(kControllerPoll);
   }

@@ -1,5 +1,5 @@
-// The controllers of a scene that are in other processes: samples go out on ROS and LCM, commands
-// come in on either and go to the loop.
+// Interface to the controllers in other processes: publishes samples on ROS and LCM, and passes
+// commands from either to the loop.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -20,16 +20,17 @@ namespace whirl_twin {
 
 class ExternalControllers {
  public:
-  /// controllers/<name>/measurement and /command, of one with a single output also /command_value,
-  /// PREFIX<NAME>_SAMPLE and _COMMAND; lcm_url "": ROS alone, as where LCM is not available.
+  /// Topics controllers/<name>/measurement and /command, for a single output also /command_value;
+  /// channels PREFIX<NAME>_SAMPLE and _COMMAND. ROS only with an empty lcm_url, or if LCM is not
+  /// available.
   ExternalControllers(const LiveTwin& twin, ros::NodeHandle node, const std::string& lcm_url,
                       const std::string& lcm_prefix);
   ~ExternalControllers();
 
   bool any() const { return !controllers_.empty(); }
-  /// Commands that were of another length than its outputs, or found no room.
+  /// Commands whose length differs from the number of outputs, or that met a full queue.
   std::uint64_t refused() const { return refused_.load(std::memory_order_relaxed); }
-  /// Commands by LCM that were no such message.
+  /// Malformed payloads of commands by LCM.
   const RefusedPayloads& malformed() const { return malformed_; }
 
  private:
@@ -38,8 +39,8 @@ class ExternalControllers {
     ExternalLink* link;
     ros::Publisher measurement;
     ros::Subscriber command;
-    ros::Subscriber value;    // of one with a single output
-    ExternalSample newest{};  // told
+    ros::Subscriber value;    // for a single output
+    ExternalSample newest{};  // last one published
   };
 
   void advertise(Connection& connection, ros::NodeHandle& node);
@@ -53,7 +54,7 @@ class ExternalControllers {
   void tell(Connection& connection, const ExternalSample& sample);
 
   std::vector<std::unique_ptr<Connection>> controllers_;
-  ros::CallbackQueue queue_;  // that answers wait for no service
+  ros::CallbackQueue queue_;  // separate, so that commands do not wait for services
   std::shared_ptr<lcm::LCM> lcm_;
   std::vector<std::unique_ptr<ChannelTap>> taps_;
   RefusedPayloads malformed_;

@@ -1,8 +1,8 @@
-// follow_node: a twin that follows its machine. Measurements in, from ROS or LCM; out the topics
-// and channels of a simulation, so that monitor, rviz and logs need no change, with what was
-// measured and what has been learned beside them. The scene is the model, and its sensors say what
-// is measured. Says what it has taken and what not on /diagnostics once a second. It has one
-// thread: what it tells depends on the messages and their order alone.
+// follow_node: state estimator of a machine. Subscribes to measurements on ROS or LCM; publishes
+// the topics and channels of a simulation, so that monitor, rviz and logs need no change, and in
+// addition the measurements and the estimates. The scene is the model, and its sensors describe the
+// measurements. Reports accepted and rejected messages on /diagnostics once a second.
+// Single-threaded: its output depends on the messages and their order only.
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fmt/format.h>
 #include <ros/ros.h>
@@ -12,17 +12,17 @@
 #include <string>
 #include <vector>
 
-#include "estimation/clock_watch.h"
+#include "estimation/clock_offset_estimator.h"
+#include "estimation/estimator_scene.h"
+#include "estimation/estimator_sources.h"
 #include "estimation/follow_settings.h"
-#include "estimation/followed_scene.h"
-#include "estimation/followed_sources.h"
-#include "estimation/follower.h"
+#include "estimation/state_estimator.h"
 #include "nodes/changed_parameters.h"
+#include "nodes/duplicate_publishers.h"
 #include "nodes/follow_publisher.h"
 #include "nodes/machine_input.h"
 #include "nodes/node_parameters.h"
 #include "nodes/refusal_report.h"
-#include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "nodes/state_publisher.h"
 #include "plugins/plugins.h"
@@ -61,9 +61,9 @@ NodeParameters table(FollowParameters& p) {
 }
 
 const ros::WallDuration kReportPeriod(1.0);
-const ros::WallDuration kSilence(1.0);         // of the machine, from which on it is told
-const ros::WallDuration kSilenceTelling(0.2);  // from one such message to the next
-const ros::WallDuration kAgainPeriod(10.0);    // of what LCM does not latch
+const ros::WallDuration kSilence(1.0);         // timeout of the machine's messages
+const ros::WallDuration kSilenceTelling(0.2);  // between reports of the timeout
+const ros::WallDuration kAgainPeriod(10.0);    // of repetition on LCM
 
 FollowSettings followSettings(const BuiltScene& scene) {
   const ros::NodeHandle node("~");
@@ -74,8 +74,8 @@ FollowSettings followSettings(const BuiltScene& scene) {
   return readFollowSettings(given.tree, given.source, scene);
 }
 
-void report(const MachineInput& input, const FollowPublisher& publisher, const Follower& follower,
-            diagnostic_updater::DiagnosticStatusWrapper& status) {
+void report(const MachineInput& input, const FollowPublisher& publisher,
+            const StateEstimator& follower, diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(input.taken() == 0 ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
                  input.taken() == 0 ? "no measurement received yet"
@@ -104,33 +104,33 @@ void run() {
   ros::NodeHandle node(twinNamespace());
   usePlugins();
   const ParameterTree given = parameterTree(node, "scene");
-  Twin twin(readFollowedScene(given.tree, given.source));
+  Twin twin(readEstimatorScene(given.tree, given.source));
   const auto& [machine, machine_prefix, input, publish_rate, lcm_url, own_prefix] = settings;
   const std::string prefix = machine_prefix.empty() ? lcmPrefixOf(machine) : machine_prefix;
   requireLcmPrefix(prefix);
   if (machine == twinNamespace() || (input == "lcm" && prefix == own_prefix)) {
-    throw Refusal(
+    throw InputError(
         "machine: namespace and prefix must differ from the twin's, which publishes measurements "
         "under its own");
   }
   const std::int64_t every = stepsToPublish(twin.scene(), publish_rate);
   const FollowSettings estimated = followSettings(twin.built());
   std::vector<std::string> sources;
-  for (const FollowedSource& source : followedSources(twin.scene(), estimated)) {
+  for (const EstimatorSource& source : estimatorSources(twin.scene(), estimated)) {
     sources.push_back(source.name);
   }
 
   const auto generations = std::make_shared<SystemGenerations>(twin);
   FollowPublisher publisher(twin, generations, sources, node, LcmPublisher(lcm_url, own_prefix),
                             sceneText(given.tree, given.source));
-  std::int64_t ahead = 0;  // [ns], of the wall clock before the machine's
-  Follower* following = nullptr;
-  FollowerListener listener;
+  std::int64_t ahead = 0;  // [ns], wall clock minus the machine's clock
+  StateEstimator* following = nullptr;
+  EstimatorListener listener;
   listener.record = [&](const double* record) {
     publisher.setStamp(following->machineInstant(RecordLayout::step(record)) + ahead);
     publisher.publish(record);
   };
-  ClockWatch clocks;
+  ClockOffsetEstimator clocks;
   std::int64_t restarts = 0;
   listener.follow = [&](state::FollowState told) {
     told.clock_offset = clocks.offset();
@@ -138,9 +138,9 @@ void run() {
     told.clock_drift = clocks.drift();
     publisher.publish(told);
   };
-  Follower follower(twin, generations, estimated, every, listener);
+  StateEstimator follower(twin, generations, estimated, every, listener);
   following = &follower;
-  ros::WallTime heard = ros::WallTime::now();  // the last message
+  ros::WallTime heard = ros::WallTime::now();  // of the last message
   const MachineInput::Handler take = [&](const state::Measurement& message) {
     heard = ros::WallTime::now();
     const auto now = static_cast<std::int64_t>(heard.toNSec());

@@ -37,7 +37,7 @@ void FollowPublisher::publish(const double* record) {
 
 void FollowPublisher::tellAgain() {
   states_.tellAgain(scene_);
-  states_.tellParametersAgain();
+  states_.republishParameters();
 }
 
 void FollowPublisher::publish(state::FollowState told) {

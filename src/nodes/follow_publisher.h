@@ -1,5 +1,5 @@
-// All that leaves the node of a follower: the twin's motion as a simulation's, what was measured
-// beside it, and what has been learned.
+// Publisher of the state estimator node: the estimated motion on the topics of a simulation, the
+// measurements, and the estimates.
 #pragma once
 
 #include <ros/ros.h>
@@ -22,24 +22,24 @@ namespace whirl_twin {
 
 class FollowPublisher {
  public:
-  /// Advertises under `node`, and tells the scene; sources: that measure.
+  /// Advertises under `node`, and publishes the scene; sources: names of the measurement sources.
   FollowPublisher(Twin& twin, std::shared_ptr<SystemGenerations> generations,
                   const std::vector<std::string>& sources, ros::NodeHandle node, LcmPublisher lcm,
                   state::SceneText scene);
 
-  /// Messages leave on ROS with the next send(); on LCM they have left.
+  /// Sends the queued messages on ROS; on LCM they were sent at once.
   void send() { states_.send(); }
-  /// [ns], of what is published from now on.
+  /// [ns], of the messages published from now on.
   void setStamp(std::int64_t stamp) { stamp_ = stamp; }
   void publish(const double* record);
   void publish(state::FollowState told);
   void publish(const state::Measurement& raw) { states_.tell(raw); }
-  /// Nothing has come for so long [s]: what is known, and that every channel is silent; it leaves
-  /// at once.
+  /// No message for `silent` [s]: publishes and sends the estimates with every channel marked as
+  /// timed out.
   void publishSilence(double silent, double step_seconds);
-  /// On LCM, which latches nothing, once more: the scene, and the parameters as they are known.
+  /// Republishes on LCM, which has no latched topics: the scene, and the present parameters.
   void tellAgain();
-  /// The last of each system.
+  /// The latest of each system.
   const std::map<std::string, state::FollowState>& told() const { return told_; }
 
  private:

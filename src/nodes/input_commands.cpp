@@ -13,7 +13,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint32_t kInputQueue = 100;  // commands of a sender that is ahead
+constexpr std::uint32_t kInputQueue = 100;  // commands
 
 bool hasCommandedInput(const BuiltSystem& system) {
   const auto& inputs = system.spec.inputs;

@@ -1,5 +1,5 @@
-// Commands to inputs as they come in, by ROS topic <system>/inputs and by LCM: each goes to the
-// loop for its next step; what cannot be meant is refused and counted.
+// Commands to inputs, by ROS topic <system>/inputs and by LCM: each is passed to the loop for its
+// next step; invalid commands are rejected and counted.
 #pragma once
 
 #include <ros/ros.h>
@@ -19,19 +19,19 @@ namespace whirl_twin {
 
 class InputCommands {
  public:
-  /// Listens for every system that has an input which the scene gives as a number; where there is
-  /// none, not at all. Without LCM, or where that cannot receive, on ROS alone.
+  /// Subscribes for every system with an input that the scene specifies as a number. On ROS only,
+  /// without LCM or if LCM cannot receive.
   InputCommands(const LiveTwin& twin, TwinServices& services, ros::NodeHandle node,
                 const std::string& lcm_url, const std::string& lcm_prefix);
 
-  /// Something may come in.
+  /// Whether there are subscriptions.
   bool any() const { return !subscribers_.empty(); }
-  /// Takes what has arrived by LCM; to be called every few milliseconds.
+  /// Handles the commands received by LCM; to be called every few milliseconds.
   void receive();
 
   std::uint64_t taken() const { return taken_; }
   std::uint64_t refused() const;
-  /// Those that came by LCM and were no messages; null where it does not listen there.
+  /// Malformed payloads received by LCM; null without an LCM subscription.
   const RefusedPayloads* refusedPayloads() const {
     return receiver_ ? &receiver_->refused() : nullptr;
   }

@@ -53,13 +53,12 @@ void NewestStates::tell(const Message& message, std::int64_t arrived) {
 
 namespace {
 
-/// Messages a slow subscriber may fall behind: 100 s at 1 kHz, 10 s of that played ten times
-/// faster.
+/// Messages queued for a slow subscriber: 100 s at 1 kHz, 10 s of a log played ten times faster.
 constexpr std::uint32_t kQueueSize = 100000;
 const ros::WallDuration kConnectTimeout(2.0);
 const ros::WallDuration kConnectPoll(0.001);
 
-/// How many nodes the master knows to have subscribed to a topic; 0 without a master.
+/// Number of nodes subscribed to a topic by the master's registration; 0 without a master.
 std::size_t subscribersOf(const std::string& topic) {
   XmlRpc::XmlRpcValue request;
   XmlRpc::XmlRpcValue response;
@@ -114,7 +113,7 @@ void LcmBridge::publish(const Message& message) {
 
 void LcmBridge::publishState(const state::Alert& alert) {
   if (alert.time < last_alert_time_) {
-    active_alerts_.clear();  // the log or the twin has begun anew
+    active_alerts_.clear();  // the log or the twin has restarted
   }
   last_alert_time_ = alert.time;
   if (alert.raised) {

@@ -1,5 +1,5 @@
-// LCM in, ROS out: messages that arrive on LCM channels (a log being played, a twin on another
-// machine) appear on the topics on which a live twin publishes them, unchanged and in order.
+// Bridge from LCM to ROS: messages on LCM channels (a played log, a twin on another machine) are
+// published on the topics of a live twin, unchanged and in order.
 #pragma once
 
 #include <ros/ros.h>
@@ -17,26 +17,26 @@
 
 namespace whirl_twin {
 
-// Of states that come faster than they are wanted, the newest of each; what is news (parameters,
-// alerts, the loop's statistics) is passed on at once, behind the states before it.
+// Limits the rate of states: the newest of each is published once per period; other messages
+// (parameters, alerts, loop statistics) are published at once, after the states before them.
 
 class NewestStates {
  public:
-  /// period: from one telling of the newest to the next; 0: every message at once. now() [us] is
-  /// the clock that says when messages arrived.
+  /// period: between publications of the newest states; 0: every message at once. now() [us] is the
+  /// clock of the arrival times.
   NewestStates(std::chrono::microseconds period, std::function<void(const Message&)> tell,
                std::function<std::int64_t()> now);
 
-  /// arrived [us].
+  /// arrived: [us], arrival time.
   void take(const Message& message, std::int64_t arrived);
-  /// Tells what is due; to be called as often as nextDue() says.
+  /// Publishes what is due; to be called after the time nextDue().
   void tellDue();
-  /// How long until there is something to tell [us]; at most `longest`.
+  /// Time until the next publication is due [us]; at most `longest`.
   std::chrono::microseconds nextDue(std::chrono::microseconds longest) const;
 
-  /// States that a newer one has taken the place of.
+  /// States replaced by a newer one.
   std::uint64_t leftOut() const { return left_out_; }
-  /// [ns], from arrival to having been told.
+  /// [ns], from arrival to publication.
   const TimingHistogram& latency() const { return latency_; }
 
  private:
@@ -51,7 +51,7 @@ class NewestStates {
   std::function<void(const Message&)> tell_;
   std::function<std::int64_t()> now_;
   std::map<std::pair<const MessageKind*, std::string>, Kept> kept_;
-  std::int64_t told_;  // [us], when last
+  std::int64_t told_;  // [us], last publication
   std::uint64_t left_out_ = 0;
   TimingHistogram latency_;
 };
@@ -63,7 +63,7 @@ class LcmBridge {
   LcmBridge(const ros::NodeHandle& twin, bool derived);
 
   /// Publishes a message on its topics. The first of a topic waits (at most 2 s) until the nodes
-  /// that subscribed to the topic before are connected, so that they get every one.
+  /// that have subscribed to the topic are connected, so that they receive every message.
   void publish(const Message& message);
 
   const RosTopics& topics() const { return topics_; }

@@ -1,9 +1,9 @@
-// lcm_bridge_node: LCM channels TWIN_* to the ROS topics of a live twin, for logs being played back
-// and twins elsewhere. Needs no scene: that of a twin elsewhere comes with its states. Recorded
-// stability margins and alerts only with ~derived: a monitor listens to the states and publishes
-// its own. Says what it received, lost and rejected, and who else there is, on /diagnostics once a
-// second, and when it ends. The service ~ready (std_srvs/Trigger) is there as soon as the bridge
-// listens.
+// lcm_bridge_node: republishes LCM channels TWIN_* on the ROS topics of a live twin, for played
+// logs and remote twins. Needs no scene: that of a remote twin arrives with its states. Recorded
+// stability margins and alerts only with ~derived: otherwise a monitor evaluates the states.
+// Reports the messages received, lost and rejected, and duplicate publishers, on /diagnostics once
+// a second, and at its end. The service ~ready (std_srvs/Trigger) exists as soon as the bridge has
+// subscribed.
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,11 +20,11 @@
 
 #include "monitoring/run_filter.h"
 #include "nodes/changed_parameters.h"
+#include "nodes/duplicate_publishers.h"
 #include "nodes/lcm_bridge.h"
 #include "nodes/node_parameters.h"
 #include "nodes/refusal_report.h"
 #include "nodes/rising_count.h"
-#include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "scene/yaml_file.h"
 #include "transport/channels.h"
@@ -73,7 +73,7 @@ std::int64_t wallMicroseconds() {
       .count();
 }
 
-/// The scene of a twin elsewhere, for the nodes that show it or watch it here and have none.
+/// Loads the scene of a remote twin for the display and monitor nodes here, which have none.
 void keepScene(const state::SceneText& scene, const ros::NodeHandle& twin) {
   if (twin.hasParam("scene")) {
     return;
@@ -83,7 +83,7 @@ void keepScene(const state::SceneText& scene, const ros::NodeHandle& twin) {
                                                  scene.source, "a scene", "systems")));
     twin.setParam("scene_file", scene.source);
     ROS_INFO("%s is the scene of the twin on LCM", twin.resolveName("scene").c_str());
-  } catch (const Refusal& why) {
+  } catch (const InputError& why) {
     ROS_WARN_THROTTLE(60.0, "the scene of the twin on LCM cannot be used: %s", why.what());
   }
 }
@@ -134,7 +134,7 @@ void run() {
   NewestStates states(
       std::chrono::microseconds(settings.newest > 0.0 ? std::llround(1.0e6 / settings.newest) : 0),
       [&bridge](const Message& message) { bridge.publish(message); }, wallMicroseconds);
-  LcmRivals rivals(prefix);
+  DuplicatePublishers rivals(prefix);
   RunFilter runs;
   std::unique_ptr<LcmReceiver> receiver;
   receiver = std::make_unique<LcmReceiver>(
@@ -174,7 +174,7 @@ void run() {
         return true;
       });
 
-  // Wall time: simulated time may stand still, or come from the log itself.
+  // Wall time: simulated time may be constant, or come from the log.
   ros::WallTime next_report = ros::WallTime::now();
   while (ros::ok() && !stopRequested()) {
     receiver->receive(states.nextDue(kPoll));

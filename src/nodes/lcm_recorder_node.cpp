@@ -38,10 +38,10 @@ void run() {
   table(settings).read();
   const auto& [log, url, prefix, force] = settings;
   if (log.empty()) {
-    throw Refusal("log: missing; must be the name of a file to write");
+    throw InputError("log: missing; must be the name of a file to write");
   }
   if (!force && std::filesystem::exists(log)) {
-    throw Refusal(fmt::format("log: '{}' exists; set force:=true to overwrite it", log));
+    throw InputError(fmt::format("log: '{}' exists; set force:=true to overwrite it", log));
   }
   MasterWatch master;
   const auto lcm = openLcm(url);
@@ -53,7 +53,7 @@ void run() {
   }
   master.stop();
   constexpr int kAll = 100000;
-  recorder.record(milliseconds(0), kAll);  // what arrived before the interruption
+  recorder.record(milliseconds(0), kAll);  // events received before the interruption
   fmt::print("{} events recorded to {}\n", recorder.recorded(), log);
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kLockstepQueue = 1000;
 constexpr const char* kTopic = "lockstep";
-constexpr double kPatience = 0.3;  // s that one may take without being looked after, and named
+constexpr double kPatience = 0.3;  // s, time to acknowledge before a node is reported and checked
 const ros::WallDuration kLookPeriod(0.1);
 
 double steadySeconds() {
@@ -41,12 +41,12 @@ Lockstep::Settings lockstepSettings(std::string names, int ahead, double timeout
   while (words >> word) {
     std::string fault;
     if (!ros::names::validate(word, fault)) {
-      throw Refusal(
-          fmt::format("lockstep: must be names of nodes, found {}", whirl_twin::quoted(word)));
+      throw InputError(
+          fmt::format("lockstep: must be names of nodes, found {}", whirl_twin::inQuotes(word)));
     }
     const std::string name = ros::names::resolve(word);
     if (std::count(settings.who.begin(), settings.who.end(), name) > 0) {
-      throw Refusal(fmt::format("lockstep: duplicate {}", name));
+      throw InputError(fmt::format("lockstep: duplicate {}", name));
     }
     settings.who.push_back(name);
   }
@@ -81,9 +81,9 @@ void LockstepListeners::take(const Number& event) {
   }
 }
 
-void LockstepListeners::published(std::int64_t step, bool anew) {
+void LockstepListeners::published(std::int64_t step, bool restarted) {
   if (on()) {
-    lockstep_.published(step, anew, steadySeconds());
+    lockstep_.published(step, restarted, steadySeconds());
   }
 }
 
@@ -92,7 +92,7 @@ std::string LockstepListeners::waitsFor() const {
                                     : lockstep_.waitsFor(steadySeconds(), kPatience));
 }
 
-/// Nodes that the master knows to publish acknowledgements; none while not all of them are
+/// Nodes that publish acknowledgements by the master's registration; none until all of them are
 /// connected.
 std::vector<std::string> LockstepListeners::acknowledging() const {
   XmlRpc::XmlRpcValue request, response, all;
@@ -117,9 +117,9 @@ std::vector<std::string> LockstepListeners::acknowledging() const {
   return nodes;
 }
 
-/// One that would hear the next state and be heard is there, once it is in two looks: a connection
-/// takes a moment to be one at both of its ends. One that has none of its connections any more was
-/// started again.
+/// A node counts as present if it receives the next state and can acknowledge it, in two successive
+/// polls: a connection takes a moment to be established at both ends. A node with none of its
+/// earlier connections has restarted.
 void LockstepListeners::see() {
   std::map<std::string, std::set<int>> links;
   for (const std::string& node : acknowledging()) {

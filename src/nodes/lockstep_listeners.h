@@ -1,5 +1,5 @@
-// Lockstep on ROS: nodes that are named acknowledge each step that they have dealt with, by its
-// number on the topic `lockstep` (std_msgs/Int64); the twin goes no further than they have come.
+// Lockstep on ROS: the given nodes acknowledge each step that they have processed, by its number on
+// the topic `lockstep` (std_msgs/Int64); the twin does not advance beyond their acknowledgements.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -20,22 +20,22 @@
 namespace whirl_twin {
 
 /// `names`: nodes, separated by commas; `ahead` publications; `timeout` [s]; `every` steps from one
-/// publication to the next. Throws Refusal for what is no name of a node, or a duplicate.
+/// publication to the next. Throws InputError for an illegal or duplicate node name.
 Lockstep::Settings lockstepSettings(std::string names, int ahead, double timeout,
                                     std::int64_t every);
 
 class LockstepListeners {
  public:
-  /// Before the loop runs, which from then on waits for those who are named.
+  /// To be called before the loop runs, which from then on waits for the given nodes.
   LockstepListeners(LiveTwin& live, ros::NodeHandle node, const Lockstep::Settings& settings);
   ~LockstepListeners();
 
   bool on() const { return lockstep_.on(); }
-  /// The thread that publishes: a step is on its way; anew: the first one after a reset.
-  void published(std::int64_t step, bool anew);
-  /// Those whom simulated time waits for, with what is known of why; any thread.
+  /// For the publisher thread: a step is being published; restarted: the first one after a reset.
+  void published(std::int64_t step, bool restarted);
+  /// The nodes that simulated time waits for, with the reasons known; any thread.
   std::string waitsFor() const;
-  /// Sees who is there, and pauses the twin for one that is overdue; ten times a second.
+  /// Checks which nodes are present, and pauses the twin for an overdue one; ten times a second.
   void watch();
   void summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
@@ -49,13 +49,13 @@ class LockstepListeners {
 
   LiveTwin& live_;
   Lockstep lockstep_;
-  ros::CallbackQueue queue_;  // an acknowledgement waits for no service
+  ros::CallbackQueue queue_;  // separate, so that acknowledgements do not wait for services
   ros::Subscriber acknowledgements_;
   ros::AsyncSpinner thread_{1, &queue_};
-  std::map<std::string, std::set<int>> seen_;  // its connections, at the last look
-  std::string told_;                           // to the log
+  std::map<std::string, std::set<int>> seen_;  // connections at the last poll
+  std::string told_;                           // last logged
   ros::SteadyTime next_look_;
-  std::atomic<std::uint64_t> strays_{0};  // numbers of others, or of steps yet to come
+  std::atomic<std::uint64_t> strays_{0};  // acknowledgements of other nodes, or of future steps
 };
 
 }  // namespace whirl_twin

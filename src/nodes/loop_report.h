@@ -1,4 +1,4 @@
-// How the loop keeps its time, as a message and as a diagnostics summary.
+// Loop statistics: timing of the loop as a message and as a diagnostics summary.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -11,19 +11,19 @@
 
 namespace whirl_twin {
 
-/// Everything but the stamp.
+/// All fields except the stamp.
 state::LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
                                      const RealtimeStatus& status, const LoopTiming& timing,
                                      bool paused, std::uint64_t dropped);
 
-/// What the parts of the twin take of its steps.
+/// Adds the computing times of the systems and of the controllers in a step.
 void addStepTimes(const LiveTwin& live, state::LoopStatistics& loop);
 
 class LoopDiagnostics {
  public:
   /// OK, or a warning when within the last ten seconds periods were skipped, or states not
-  /// published or not sent, or an error when a system has stopped. time [s]: of a clock that
-  /// nobody sets.
+  /// published or not sent, or an error when a system has stopped. time [s]: of a monotonic
+  /// clock.
   void summarize(const state::LoopStatistics& loop, double time,
                  diagnostic_updater::DiagnosticStatusWrapper& status);
 

@@ -1,4 +1,4 @@
-// A machine's measurements, from wherever they come: its topics, or its LCM channels.
+// Subscription to the measurements of a machine, by ROS topics or LCM channels.
 #pragma once
 
 #include <ros/ros.h>
@@ -19,30 +19,31 @@ class MachineInput {
  public:
   using Handler = std::function<void(const state::Measurement&)>;
 
-  /// From topics measured/SOURCE of the machine's namespace; handler is called by receive().
+  /// Subscribes to the topics measured/SOURCE of the machine's namespace; receive() calls handler.
   MachineInput(const std::string& machine, const std::vector<std::string>& sources,
                Handler handler);
-  /// From LCM channels that begin with a prefix.
+  /// Subscribes to the LCM channels that begin with a prefix.
   MachineInput(const std::string& lcm_url, const std::string& prefix, Handler handler);
-  /// Its callbacks refer to it.
+  /// Not copyable: its callbacks refer to it.
   MachineInput(const MachineInput&) = delete;
   MachineInput& operator=(const MachineInput&) = delete;
 
-  /// Takes what has come, and waits for a moment where nothing has; ROS's callbacks, too.
+  /// Handles the received messages, waiting a moment if there are none; also runs ROS's callbacks.
   void receive();
   std::uint64_t taken() const { return taken_; }
-  std::uint64_t rejected() const;  ///< messages that were not sound
+  std::uint64_t rejected() const;  ///< invalid messages
   std::string lastRejection() const;
-  /// Of the run that is followed; what another sends in its place is left and counted.
+  /// The filter that selects the tracked run; messages of a different run are discarded and
+  /// counted.
   const RunFilter& runs() const { return runs_; }
-  /// Those that came by LCM and were no messages; null where it does not listen there.
+  /// Malformed payloads received by LCM; null without an LCM subscription.
   const RefusedPayloads* refusedPayloads() const {
     return receiver_ ? &receiver_->refused() : nullptr;
   }
 
  private:
   void take(const state::Measurement& message);
-  /// A simulated machine says which run it is.
+  /// The loop statistics of a simulated machine identify its run.
   void take(const state::LoopStatistics& loop);
 
   Handler handler_;

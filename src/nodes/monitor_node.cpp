@@ -1,4 +1,5 @@
-// The monitor: live states in, by ROS or by LCM; stability margins and the list of alerts out.
+// Monitor node: subscribes to live states by ROS or by LCM, publishes stability margins and the
+// list of alerts.
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fmt/format.h>
@@ -13,17 +14,16 @@
 #include <thread>
 #include <utility>
 
-#include "monitoring/live_alarm_settings.h"
+#include "monitoring/alarm_settings_reader.h"
 #include "monitoring/twin_monitor.h"
-#include "monitoring/watched_kinds.h"
 #include "monitoring/watched_scene.h"
 #include "nodes/alarm_services.h"
 #include "nodes/alarm_settings_service.h"
 #include "nodes/alert_events.h"
 #include "nodes/changed_parameters.h"
+#include "nodes/duplicate_publishers.h"
 #include "nodes/node_parameters.h"
 #include "nodes/refusal_report.h"
-#include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "plugins/plugins.h"
 #include "scene/scene_reader.h"
@@ -67,15 +67,15 @@ constexpr std::uint32_t kQueue = 5000;        // some seconds at 1 kHz
 constexpr std::uint32_t kPublishQueue = 100;  // ten seconds of margins
 constexpr std::chrono::microseconds kGather{1000};
 constexpr double kReportPeriod = 1.0;  // s, wall time
-/// [s], wall time that the scene of a twin is waited for, which is told every two; logs of before
-/// have none.
+/// [s], wall time to wait for the scene of a twin, which is published every 2 s; logs of earlier
+/// versions have none.
 constexpr double kScenePatience = 3.0;
 
 double wallTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// The scene of a log that is played comes a moment after the monitor.
+/// The player of a log may load its scene a moment after the monitor starts.
 const ros::NodeHandle& awaitScene(const ros::NodeHandle& node, double longest) {
   const double end = wallTime() + longest;
   while (!node.hasParam("scene") && wallTime() < end && !stopRequested()) {
@@ -92,7 +92,7 @@ class MonitorNode {
         scene_(build(readScene(given_.tree, given_.source))),
         watched_scene_(sceneLines(given_.tree), given_.source),
         settings_(alarmSettingsOf(scene_)),
-        monitor_(scene_, settings_.settings(), Judging::Mode::kBeside),
+        monitor_(scene_, settings_.settings(), EvaluationQueue::Mode::kConcurrent),
         url_(parameters.lcm_url),
         lcm_(url_, parameters.lcm_prefix),
         rivals_(lcm_.prefix()),
@@ -123,7 +123,7 @@ class MonitorNode {
     if (parameters.source == "ros") {
       subscribe();
     } else if (url_.empty()) {
-      throw Refusal("lcm_url: must be an LCM URL with source lcm, found nothing");
+      throw InputError("lcm_url: must be an LCM URL with source lcm, found nothing");
     } else {
       receive(url_);
     }
@@ -140,22 +140,22 @@ class MonitorNode {
   }
 
   void spinOnce() {
-    // A verdict that is being made is not kept waiting for a state.
-    const bool soon = monitor_.judging();
+    // Waits for states only briefly while an evaluation is running.
+    const bool soon = monitor_.evaluating();
     if (receiver_) {
       receiver_->receive(std::chrono::microseconds(soon ? 200 : 10'000));
       ros::getGlobalCallbackQueue()->callAvailable();
     } else {
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(soon ? 2.0e-4 : 1.0e-2));
     }
-    if (!soon) {  // what comes within a moment is taken in one turn
+    if (!soon) {  // gathers messages to handle them in one turn
       std::this_thread::sleep_for(kGather);
     }
     services_.receive();
     askForScene();
     monitor_.tick(wallTime(), paused_);
     publish();
-    // Wall time: simulated time stands still in a pause and goes back in a reset.
+    // Wall time: simulated time is constant during a pause and jumps back in a reset.
     if (wallTime() >= next_report_) {
       next_report_ = wallTime() + kReportPeriod;
       diagnostics_.force_update();
@@ -164,11 +164,11 @@ class MonitorNode {
     }
   }
 
-  /// As must be before ros::shutdown().
+  /// Must be called before ros::shutdown().
   void stop() { master_.stop(); }
 
  private:
-  /// Feeds one message to the monitor; a message that cannot be meant is counted and left.
+  /// Passes one message to the monitor; an invalid message is counted and discarded.
   template <class Message>
   void feed(const Message& message) {
     try {
@@ -197,7 +197,7 @@ class MonitorNode {
       }
     });
     for (const SharedSystem& system : scene_.systems) {
-      subscribeTo<state::FollowState>(system->spec.name);  // of a follower, if it is one
+      subscribeTo<state::FollowState>(system->spec.name);  // published by a state estimator only
     }
     for (const SensorSpec& sensor : scene_.scene.sensors) {
       subscribeTo<state::Measurement>(sensor.name);
@@ -256,10 +256,10 @@ class MonitorNode {
                                     : "twin and monitor have the same scene");
     }
   }
-  /// Before anything is judged.
+  /// Must be called before any state is evaluated.
   void askForScene() {
     const double heard_for = wallTime() - first_arrival_;
-    const bool waits = !watched_scene_.told() && heard_for >= 0.0 && heard_for < kScenePatience;
+    const bool waits = !watched_scene_.received() && heard_for >= 0.0 && heard_for < kScenePatience;
     monitor_.setUncertain(waits ? "the scene of the twin was not received yet"
                                 : watched_scene_.mismatch());
   }
@@ -289,7 +289,7 @@ class MonitorNode {
     }
   }
 
-  /// That it is there. Wall time: in a pause, too.
+  /// Publishes the heartbeat. Wall time: also during a pause.
   void beat() {
     state::MonitorStatus status = monitor_.status(wallTime(), paused_);
     status.at.stamp = stampNow();
@@ -349,7 +349,7 @@ class MonitorNode {
   std::string url_;
   LcmPublisher lcm_;
   AlertEvents events_{lcm_};
-  LcmRivals rivals_;
+  DuplicatePublishers rivals_;
   RosTopics topics_;
   KeptHistory history_;
   AlarmServices services_;
@@ -363,9 +363,9 @@ class MonitorNode {
   diagnostic_updater::Updater diagnostics_;
   std::optional<RefusalReport> refused_payloads_;
   std::uint64_t rejected_ = 0;
-  bool paused_ = false;                     // the simulation says so
-  std::optional<std::int64_t> simulation_;  // when the one that is watched was started
-  double newest_arrival_ = 0.0;             // [s], wall time
+  bool paused_ = false;                                             // as reported by the simulation
+  std::optional<std::int64_t> simulation_;                          // start of the monitored run
+  double newest_arrival_ = 0.0;                                     // [s], wall time
   double first_arrival_ = std::numeric_limits<double>::infinity();  // [s], wall time
   double next_report_ = 0.0;                                        // [s], wall time
 };

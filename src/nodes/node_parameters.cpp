@@ -10,8 +10,8 @@
 #include <sstream>
 #include <utility>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "transport/channels.h"
 #include "transport/twin_namespace.h"
 
@@ -33,10 +33,10 @@ std::string rangeText(const ParameterRange& range) {
              : fmt::format("{}from {:g} to {:g}{}", zero, range.low, range.high, unit);
 }
 
-/// "" or that the parameter must be `required`.
+/// "", or the requirement that the parameter violates.
 template <class Value>
 std::string readAs(const std::string& name, const std::string& required, Value& value) {
-  XmlRpc::XmlRpcValue given;  // getParam() of a whole number rounds 50.5
+  XmlRpc::XmlRpcValue given;  // getParam() of an integer would round 50.5
   ros::param::get(name, given);
   const bool whole = !std::is_same_v<Value, int> || given.getType() == XmlRpc::XmlRpcValue::TypeInt;
   return whole && ros::param::get(name, value)
@@ -44,7 +44,7 @@ std::string readAs(const std::string& name, const std::string& required, Value& 
              : fmt::format("{}: must be {}, found another type", name, required);
 }
 
-/// A paragraph in lines, the second and later ones indented.
+/// Wraps a paragraph; the second and later lines are indented.
 std::string wrapped(const std::string& text, std::size_t indent) {
   std::istringstream words(text);
   std::string out, word;
@@ -115,7 +115,7 @@ NodeParameters& NodeParameters::choice(const char* name, std::string& value,
                return !fault.empty() || isIn(among, value)
                           ? fault
                           : fmt::format("{}: must be {}, found {}", full, required,
-                                        whirl_twin::quoted(value));
+                                        whirl_twin::inQuotes(value));
              });
 }
 
@@ -189,12 +189,12 @@ void NodeParameters::read() const {
     *prefix_ = prefix_->empty() ? lcmPrefixOf(twinNamespace()) : *prefix_;
     try {
       requireLcmPrefix(*prefix_);
-    } catch (const Refusal& error) {
+    } catch (const InputError& error) {
       faults.push_back(fmt::format("{}/{}", node, error.what()));
     }
   }
   if (!faults.empty()) {
-    throw Refusal(fmt::format("{}", fmt::join(faults, "\n")));
+    throw InputError(fmt::format("{}", fmt::join(faults, "\n")));
   }
 }
 

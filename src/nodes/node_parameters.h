@@ -1,5 +1,6 @@
-// The private parameters of a node, each declared once: name, kind, range, default and description
-// give the text of --help, the list of known names, and the reading with all errors at once.
+// Table of the private parameters of a node, each declared once with name, kind, range, default and
+// description: generates the text of --help and the list of known names, and reads the values,
+// reporting all errors at once.
 #pragma once
 
 #include <functional>
@@ -8,50 +9,50 @@
 
 namespace whirl_twin {
 
-/// What ROS's own libraries read of a node's private parameters.
+/// Private parameters that ROS's own libraries read.
 inline const std::vector<std::string> kParametersOfRos{"diagnostic_period",
                                                        "diagnostic_updater_use_fqn", "tf_prefix"};
 
-/// What a number may be.
+/// Range of a number.
 struct ParameterRange {
   double low, high;
   const char* unit;            ///< "s"
-  const char* zero = nullptr;  ///< what 0 means, where it is allowed although below `low`
+  const char* zero = nullptr;  ///< meaning of 0, if it is valid although below `low`
 };
 
 class NodeParameters {
  public:
-  /// `about`: what the node does, for --help, in lines of at most 96 characters.
+  /// `about`: the purpose of the node, for --help, in lines of at most 96 characters.
   NodeParameters(std::string node, std::string about);
 
-  // Each declares a parameter. `value` is the default, and what is given after read(). It outlives
-  // this.
+  // Each declares a parameter. `value` holds the default, and after read() the given value; it must
+  // outlive this object.
   NodeParameters& number(const char* name, double& value, const ParameterRange& range,
                          const char* text);
   NodeParameters& whole(const char* name, int& value, int low, int high, const char* text);
   NodeParameters& flag(const char* name, bool& value, const char* text);
   NodeParameters& choice(const char* name, std::string& value, std::vector<std::string> among,
                          const char* text);
-  /// `otherwise`: the default in words, of a value that is empty until then.
+  /// `otherwise`: description of the default, for a value that is initially empty.
   NodeParameters& text(const char* name, std::string& value, const char* otherwise,
                        const char* text);
-  /// ~lcm_url, and the prefix of the twin's channels: its namespace in capitals until it is given.
+  /// ~lcm_url, and the prefix of the twin's channels: by default its namespace in capitals.
   NodeParameters& lcm(std::string& url, std::string& prefix);
-  /// One that is read elsewhere.
+  /// A parameter that other code reads.
   NodeParameters& other(const char* name, const char* text);
-  /// Any others are known elsewhere; `text` says where, below the list.
+  /// All other names are valid, as other code checks them; `text` explains them below the list.
   NodeParameters& others(std::string text);
 
   /// The text of --help: needs no ROS master.
   std::string help() const;
-  /// Reads all from the parameter server. Throws Refusal with every parameter that is unknown, of
-  /// another type or out of its range.
+  /// Reads all from the parameter server. Throws InputError with every parameter that is unknown,
+  /// of another type or out of its range.
   void read() const;
 
  private:
   struct Entry {
     std::string name, text;  // of the help
-    /// "" or what is required; reads a parameter that is given.
+    /// Reads the parameter if it is given; returns the requirement it violates, or "".
     std::function<std::string(const std::string& full_name)> read;
   };
   NodeParameters& add(const char* name, std::string text,
@@ -70,7 +71,7 @@ std::string helpOf(NodeParameters (*table)(Parameters&)) {
   return table(defaults).help();
 }
 
-/// True if the command line asks for help, which is then printed.
+/// Prints the help if the command line requests it; returns whether it did.
 bool printsHelp(int argc, char** argv, const std::string& help);
 
 }  // namespace whirl_twin

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "messages/wall_clock.h"
+#include "nodes/duplicate_publishers.h"
 #include "nodes/loop_report.h"
-#include "nodes/rival_report.h"
 #include "realtime/monotonic_clock.h"
 #include "transport/master_watch.h"
 
@@ -22,12 +22,12 @@ namespace {
 constexpr auto kClockPausePeriod = std::chrono::milliseconds(100);
 constexpr auto kLoopReportPeriod = std::chrono::seconds(1);
 constexpr auto kAgainPeriod = std::chrono::seconds(10);
-constexpr auto kScenePeriod = std::chrono::seconds(2);  // a monitor waits for it
-constexpr auto kLongestSaving = std::chrono::seconds(1);
-constexpr std::chrono::microseconds kIdle{500};         // between looks at the ring
-constexpr std::chrono::microseconds kShortestIdle{25};  // where somebody waits for every step
-constexpr int kMostRecordsAtOnce = 64;            // records, between looks at what else is due
-constexpr std::int64_t kClockStep = 100'000'000;  // [ns]: more is no slewing
+constexpr auto kScenePeriod = std::chrono::seconds(2);  // shorter than the wait of a monitor
+constexpr auto kMaxSaving = std::chrono::seconds(1);
+constexpr std::chrono::microseconds kIdle{500};    // between polls of the ring
+constexpr std::chrono::microseconds kMinIdle{25};  // in lockstep
+constexpr int kMaxRecordsAtOnce = 64;              // records, between periodic tasks
+constexpr std::int64_t kClockStep = 100'000'000;   // [ns]: larger changes are not slewing
 
 std::int64_t wallClockAtZero() {
   return wallClock() - monotonicNow();
@@ -63,7 +63,7 @@ RecordPublisher::RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, Stat
     for (const SensorSpec& sensor : live.twin().scene().sensors) {
       states_.advertise<state::Measurement>(sensor.name);
     }
-    measureAnew();
+    remeasure();
   }
 }
 
@@ -96,19 +96,19 @@ void RecordPublisher::run() {
   auto next_scene = next_clock + kScenePeriod;
   scene_.at.stamp = stampNow();
   states_.tell(scene_);
-  publishReport();  // whose states they are, before the first of them
+  publishReport();  // identifies the run before its first state
   std::chrono::microseconds idle = kIdle;
   while (true) {
     const bool last_round = ending_.load();
     bool stopped_now = false;
     int taken = 0;
-    while ((taken < kMostRecordsAtOnce || last_round) && live_.pop(record.data())) {
+    while ((taken < kMaxRecordsAtOnce || last_round) && live_.pop(record.data())) {
       stopped_now = take(record.data()) || stopped_now;
       thinning_.consumed(live_.waiting());
       ++taken;
     }
     states_.send();
-    if (taken > 0) {  // once for all records, which are not to wait for statistics
+    if (taken > 0) {  // after all records, which must not wait for the statistics
       states_.publishEnsembles(observer_);
       states_.send();
     }
@@ -127,8 +127,8 @@ void RecordPublisher::run() {
     }
     if (taken > 0 || !live_.paused()) {
       next_again = now + kAgainPeriod;
-    } else if (now >= next_again) {  // it stands; else each is told again between its states
-      states_.tellParametersAgain();
+    } else if (now >= next_again) {  // otherwise published between the states
+      states_.republishParameters();
       next_again = now + kAgainPeriod;
     }
     if (clock_ && live_.paused() && now >= next_clock) {
@@ -138,8 +138,8 @@ void RecordPublisher::run() {
     if (last_round) {
       return;
     }
-    if (taken < kMostRecordsAtOnce) {
-      idle = lockstep_.on() ? std::min(taken > 0 ? kShortestIdle : 2 * idle, kIdle)
+    if (taken < kMaxRecordsAtOnce) {
+      idle = lockstep_.on() ? std::min(taken > 0 ? kMinIdle : 2 * idle, kIdle)
                             : std::max(kIdle, batch_);
       std::this_thread::sleep_for(idle);
     }
@@ -149,7 +149,7 @@ void RecordPublisher::run() {
 std::optional<SavedObserver> RecordPublisher::savedAt(std::int64_t step) {
   std::unique_lock<std::mutex> lock(saved_mutex_);
   const bool came = saved_anew_.wait_for(
-      lock, kLongestSaving, [&] { return newest_saved_ && newest_saved_->step == step; });
+      lock, kMaxSaving, [&] { return newest_saved_ && newest_saved_->step == step; });
   return came ? std::exchange(newest_saved_, std::nullopt) : std::nullopt;
 }
 
@@ -161,12 +161,12 @@ SavedObserver RecordPublisher::saved(std::int64_t step) {
   return {step, imageOf(observer_), clock_steps_};
 }
 
-void RecordPublisher::putBack(const Checkpoint& checkpoint, const std::string& source) {
-  whirl_twin::putBack(checkpoint, observer_, source);
+void RecordPublisher::restore(const Checkpoint& checkpoint, const std::string& source) {
+  whirl_twin::restore(checkpoint, observer_, source);
   clock_steps_ = checkpoint.live["clock_steps"].as<std::int64_t>(0);
 }
 
-/// One record; true if a system has just stopped. As does tell().
+/// Handles one record; true if a system has just stopped. So does tell().
 bool RecordPublisher::take(const double* record) {
   const std::int64_t step = RecordLayout::step(record);
   if (RecordLayout::scheduled(record) == RecordLayout::kSaved) {
@@ -175,12 +175,12 @@ bool RecordPublisher::take(const double* record) {
     saved_anew_.notify_all();
     return false;
   }
-  const bool anew = step < newest_step_;
+  const bool restarted = step < newest_step_;
   newest_step_ = step;
-  return tell(record, anew);
+  return tell(record, restarted);
 }
 
-bool RecordPublisher::tell(const double* record, bool anew) {
+bool RecordPublisher::tell(const double* record, bool restarted) {
   const std::int64_t step = RecordLayout::step(record);
   const bool due = step % every_ == 0;
   const bool shown = due && step / every_ % thinning_.every() == 0;
@@ -190,22 +190,22 @@ bool RecordPublisher::tell(const double* record, bool anew) {
     orders_.take(record, observer_);
     return false;
   }
-  if (anew) {
+  if (restarted) {
     clock_steps_ += observer_.step() + 1;
   }
   observer_.observe(record);
   orders_.take(record, observer_);
   stamp(record);
-  if (anew) {
+  if (restarted) {
     states_.send();
-    publishReport();  // the new epoch, ahead of its states
+    publishReport();  // the new epoch precedes its states
   }
   if (shown) {
-    lockstep_.published(step, anew);  // first: an acknowledgement may come at once
+    lockstep_.published(step, restarted);  // first: an acknowledgement may arrive at once
   }
   states_.publish(observer_, shown && !observer_.tellsOnlyChange());
   if (measuring_) {
-    measure(anew);
+    measure(restarted);
   }
   if (orders_due && !observer_.tellsOnlyChange()) {
     states_.publishOrders(observer_, orders_);
@@ -222,17 +222,17 @@ bool RecordPublisher::tell(const double* record, bool anew) {
   return stopped_now;
 }
 
-/// Those who live by the clock would not bear it to go back.
+/// /clock continues across a reset: its subscribers require a clock that does not run backward.
 void RecordPublisher::stamp(const double* record) {
   const Scene& scene = live_.twin().scene();
   observer_.setStamp(clock_ ? scene.time + (clock_steps_ + RecordLayout::step(record)) * scene.step
                             : clock_zero_ + RecordLayout::scheduled(record));
 }
 
-/// Blocks of what the scene's sensors have seen, as they are complete.
+/// Publishes the blocks of measurements of the scene's sensors that are complete.
 void RecordPublisher::measure(bool reset) {
   if (reset) {
-    return measureAnew();
+    return remeasure();
   }
   for (state::Measurement& block : measurements_->observe(observer_)) {
     block.at.stamp = observer_.instant().stamp;
@@ -240,7 +240,7 @@ void RecordPublisher::measure(bool reset) {
   }
 }
 
-void RecordPublisher::measureAnew() {
+void RecordPublisher::remeasure() {
   measurements_.emplace(live_.twin().scene().sensors, live_.twin().built(), observer_);
 }
 
@@ -284,7 +284,7 @@ void RecordPublisher::publishReport() {
   report_ = report;
 }
 
-/// Since the report before; NaN where there is none, or a reset lies between.
+/// Since the previous report; NaN for the first one, or after a reset.
 double RecordPublisher::achievedFactor(const state::LoopStatistics& report) {
   const double at = static_cast<double>(monotonicNow()) * 1.0e-9;
   const double factor = report.epoch == reported_epoch_
@@ -296,7 +296,7 @@ double RecordPublisher::achievedFactor(const state::LoopStatistics& report) {
   return factor;
 }
 
-/// Stamps are those of the wall clock, also after it has been set.
+/// Stamps follow the wall clock when it is set.
 void RecordPublisher::followWallClock() {
   const std::int64_t zero = wallClockAtZero();
   if (!clock_ && std::abs(zero - clock_zero_) > kClockStep) {

@@ -1,8 +1,8 @@
-// The publisher thread of the simulation: everything that leaves the node at the rate of the steps.
+// Publisher thread of the simulation: everything that the node publishes at the rate of the steps.
 //
-// Where it is too slow for all that is due it publishes evenly what it can
-// (realtime/even_thinning.h), and says so in the loop's statistics, which go on whatever the load
-// is.
+// If it is too slow for all publications due, it publishes a uniformly thinned part of them
+// (realtime/even_thinning.h), and reports this in the loop statistics, which are published at any
+// load.
 #pragma once
 
 #include <atomic>
@@ -30,48 +30,48 @@
 
 namespace whirl_twin {
 
-/// Of a checkpoint.
+/// Part of a checkpoint.
 struct SavedObserver {
   std::int64_t step = 0;
   std::string image;
-  std::int64_t clock_steps = 0;  ///< on the clock before the last reset
+  std::int64_t clock_steps = 0;  ///< on /clock before the last reset
 };
 
 class RecordPublisher {
  public:
-  /// What is referred to outlives it. every: steps from one publication to the next; batch: how
-  /// long a record may wait to leave with others, where nobody waits for it in lockstep; clock:
-  /// stamps are simulated time, which a reset does not turn back, else wall time; measure: also
-  /// what the scene's sensors see.
+  /// The referenced objects must outlive it. every: steps from one publication to the next; batch:
+  /// how long a record may wait for a joint write, without lockstep; clock: stamps are simulated
+  /// time, which continues across a reset, else wall time; measure: publish the measurements of the
+  /// scene's sensors.
   RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, StatePublisher states,
                   LockstepListeners& lockstep, state::SceneText scene, std::int64_t every,
                   std::chrono::microseconds batch, bool clock, bool measure);
   ~RecordPublisher();
 
-  /// Before it starts: goes on from what it knew there. Throws Refusal.
-  void putBack(const Checkpoint& checkpoint, const std::string& source);
+  /// Before start(): restores the publisher's state from a checkpoint. Throws InputError.
+  void restore(const Checkpoint& checkpoint, const std::string& source);
   void start();
   void join();
-  /// Once it has ended: what it knows where the twin has stopped.
+  /// After join(): the publisher's state at the last step.
   SavedObserver savedAtEnd();
-  // Any thread.
+  // Any thread may call the following.
 
   bool onLcm() const { return states_.lcm().on(); }
   /// The newest report, for the diagnostics.
   state::LoopStatistics report() const;
-  /// What it knew of the twin's past where a checkpoint was taken, at a step that has just been
-  /// saved; nothing: its record was lost.
+  /// The publisher's state at the step of a checkpoint that was just taken; nothing: its record was
+  /// lost.
   std::optional<SavedObserver> savedAt(std::int64_t step);
-  /// What was dropped, left out or not sent counts from zero again.
+  /// Resets the counts of steps dropped and skipped, and of messages not sent.
   void resetCounts() { reset_requested_.store(true); }
 
  private:
   void run();
   bool take(const double* record);
-  bool tell(const double* record, bool anew);
+  bool tell(const double* record, bool restarted);
   SavedObserver saved(std::int64_t step);
   void measure(bool reset);
-  void measureAnew();
+  void remeasure();
   void publishReport();
   double achievedFactor(const state::LoopStatistics& report);
   void followWallClock();
@@ -90,7 +90,7 @@ class RecordPublisher {
   state::SceneText scene_;
   std::int64_t newest_step_;  // of the records
   bool clock_;
-  std::int64_t clock_steps_ = 0;  // on the clock before the last reset
+  std::int64_t clock_steps_ = 0;  // on /clock before the last reset
   std::int64_t every_;            // steps
   std::chrono::microseconds batch_;
   EvenThinning thinning_;
@@ -106,15 +106,15 @@ class RecordPublisher {
   std::uint64_t lcm_failed_told_ = 0;
   std::uint64_t ros_lost_before_ = 0;
   std::uint64_t ros_lost_told_ = 0;
-  // Of the report before.
+  // Of the previous report.
   std::uint64_t reported_epoch_ = 0;
   double reported_time_ = 0.0;                                     // [s], simulated
-  double reported_at_ = std::numeric_limits<double>::quiet_NaN();  // [s], of a clock nobody sets
-  mutable std::mutex mutex_;  // report_, between this thread and the diagnostics
+  double reported_at_ = std::numeric_limits<double>::quiet_NaN();  // [s], CLOCK_MONOTONIC
+  mutable std::mutex mutex_;  // guards report_, which the diagnostics read
   state::LoopStatistics report_;
   std::mutex saved_mutex_;
   std::condition_variable saved_anew_;
-  std::optional<SavedObserver> newest_saved_;  // between this thread and who saves
+  std::optional<SavedObserver> newest_saved_;  // read by the thread that saves
   std::atomic<bool> reset_requested_{false};
   std::atomic<bool> ending_{false};
   std::thread thread_;

@@ -10,7 +10,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kBetweenLines = 5.0;  // s, of the log
+constexpr double kBetweenLines = 5.0;  // s, between lines of the log
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Payloads that a node has refused, for its diagnostics and its log.
+// Reports rejected payloads in the diagnostics and the log of a node.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -12,7 +12,8 @@ namespace whirl_twin {
 
 class RefusalReport {
  public:
-  /// Of these, each outliving it; null ones are left out. As the diagnostics "LCM payloads".
+  /// Adds the diagnostics "LCM payloads" for these objects, which must outlive it; null ones are
+  /// ignored.
   RefusalReport(diagnostic_updater::Updater& diagnostics, std::vector<const RefusedPayloads*> all);
   RefusalReport(const RefusalReport&) = delete;
   RefusalReport& operator=(const RefusalReport&) = delete;
@@ -22,7 +23,7 @@ class RefusalReport {
 
   std::vector<const RefusedPayloads*> all_;
   std::uint64_t logged_ = 0;
-  double last_line_ = -1.0e9;  // [s], a clock that nobody sets
+  double last_line_ = -1.0e9;  // [s], a monotonic clock
   RisingCount rising_;
 };
 

@@ -1,4 +1,4 @@
-// A count of what should not happen, for diagnostics that say so and recover when it is over.
+// Detects a recent increase of an error count, for diagnostics that recover afterwards.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@ namespace whirl_twin {
 
 class RisingCount {
  public:
-  /// The count is `now` at `time` [s, a clock that nobody sets]; whether it rose within the last
+  /// The count is `now` at `time` [s, a monotonic clock]; returns whether it rose within the last
   /// ten seconds.
   bool roseLately(std::uint64_t now, double time) {
     if (now > count_) {

@@ -13,8 +13,8 @@
 #include <mutex>
 #include <thread>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "nodes/node_parameters.h"
 
 namespace whirl_twin {
@@ -24,26 +24,26 @@ namespace {
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 
-/// [s] from a signal to the end of the process, whatever it does: roslaunch kills after 15 s
-/// without a message.
-constexpr unsigned kLongestEnd = 12;
+/// [s] Limit from a signal to the end of the process: roslaunch kills it after 15 s without a
+/// message.
+constexpr unsigned kMaxEnd = 12;
 
-/// Something blocks, as a master that accepts a call and does not answer it.
+/// For a call that blocks, for example to a master that accepts it but does not answer.
 void endNow(int) {
   constexpr char kText[] = "the node did not end within 12 s of the signal: the process ends now\n";
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kText, sizeof kText - 1);
   std::_Exit(1);
 }
 
-/// The second signal of a kind ends the process at once.
+/// A second signal of the same kind ends the process at once.
 void requestStop(int signal) {
   stop_requested.store(true);
   std::signal(signal, SIG_DFL);
-  ::alarm(kLongestEnd);
+  ::alarm(kMaxEnd);
 }
 
-/// False if a signal came first. (Without a master a first topic or service waits for ever, and is
-/// deaf to stopRequested(): so the wait is here.)
+/// False if a signal arrived first. (Without a master, the registration of the first topic or
+/// service would block and ignore stopRequested(): hence the wait here.)
 bool waitForMaster(const char* name) {
   for (bool told = false; !ros::master::check(); told = true) {
     if (!told) {
@@ -58,12 +58,11 @@ bool waitForMaster(const char* name) {
   return true;
 }
 
-/// What a node has, to end by itself, once it is asked to.
+/// Time for a node to stop by itself after a stop request.
 constexpr auto kGrace = std::chrono::seconds(5);
 
-/// Ends a node that is asked to stop and cannot, for the master went away under it: a topic or a
-/// service that is being registered asks again for ever, and is deaf to stopRequested(), but not to
-/// ROS's own end.
+/// Stops a node that ignores a stop request because the master is gone: the registration of a topic
+/// or a service retries forever and ignores stopRequested(), but ends with ROS's shutdown.
 class EndWithoutMaster {
  public:
   EndWithoutMaster() : thread_([this] { watch(); }) {}
@@ -94,7 +93,7 @@ class EndWithoutMaster {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool over_ = false;
-  std::thread thread_;  // last: it looks at the others
+  std::thread thread_;  // last: it uses the other members
 };
 
 }  // namespace
@@ -113,10 +112,9 @@ int runNode(int argc, char** argv, const char* name, const std::string& help,
     std::signal(SIGINT, requestStop);
     std::signal(SIGTERM, requestStop);
     std::signal(SIGALRM, endNow);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is like a disk that is full
+    std::signal(SIGXFSZ, SIG_IGN);  // a file at its size limit gives an error, as on a full disk
     if (waitForMaster(name)) {
-      const ros::NodeHandle
-          kept;  // with the last one, as that by which a parameter is read, ROS ends
+      const ros::NodeHandle kept;  // ROS shuts down with its last NodeHandle, maybe a temporary one
       const EndWithoutMaster end_without_master;
       run();
     }

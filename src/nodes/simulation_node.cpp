@@ -1,4 +1,4 @@
-// The simulation: a scene, stepped at a fixed rate in a real-time thread; states on ROS and LCM.
+// simulation_node: steps a scene at a fixed rate in a real-time thread; publishes on ROS and LCM.
 //
 // Threads: the loop (FixedRateLoop) steps and writes records into a ring; RecordPublisher drains
 // the ring and owns all sockets; this thread serves the services and the diagnostics.
@@ -19,6 +19,7 @@
 #include "messages/monitor_status.h"
 #include "nodes/changed_parameters.h"
 #include "nodes/checkpoint_saver.h"
+#include "nodes/duplicate_publishers.h"
 #include "nodes/external_controllers.h"
 #include "nodes/input_commands.h"
 #include "nodes/lockstep_listeners.h"
@@ -26,7 +27,6 @@
 #include "nodes/node_parameters.h"
 #include "nodes/record_publisher.h"
 #include "nodes/refusal_report.h"
-#include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "nodes/state_publisher.h"
 #include "nodes/twin_services.h"
@@ -45,12 +45,12 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kMinStep = 10'000;  // ns, that the fixed-rate loop takes
+constexpr std::int64_t kMinStep = 10'000;  // ns, shortest step of the fixed-rate loop
 constexpr auto kReportPeriod = std::chrono::seconds(1);
 constexpr double kServicePoll = 0.05;   // s
-constexpr double kCommandPoll = 0.002;  // s, where there are ramps or commands by LCM
+constexpr double kCommandPoll = 0.002;  // s, with ramps or commands by LCM
 
-/// The node's private parameters, as they are given.
+/// The node's private parameters.
 struct SimulationParameters {
   double publish_rate = 0.0, batch = 0.0, real_time_factor = 1.0;
   std::string lcm_url, lcm_prefix;
@@ -106,21 +106,22 @@ NodeParameters table(SimulationParameters& p) {
   return all;
 }
 
-/// Throws Refusal for what does not fit the scene.
+/// Throws InputError for settings that do not match the scene.
 void requireFits(const SimulationParameters& p, const Scene& scene) {
   if (p.clock && scene.time < 0) {
-    throw Refusal("clock: needs a scene whose time is >= 0 s");
+    throw InputError("clock: needs a scene whose time is >= 0 s");
   }
   if (p.measure && scene.sensors.empty()) {
-    throw Refusal("measure: the scene has no sensors");
+    throw InputError("measure: the scene has no sensors");
   }
   if (scene.step < kMinStep) {
-    throw Refusal(fmt::format("{}: step: must be >= {:g} s to run live, found {:g} s", scene.source,
-                              static_cast<double>(kMinStep) * 1.0e-9, scene.stepSeconds()));
+    throw InputError(fmt::format("{}: step: must be >= {:g} s to run live, found {:g} s",
+                                 scene.source, static_cast<double>(kMinStep) * 1.0e-9,
+                                 scene.stepSeconds()));
   }
   if (p.busy_wait > 0.5 * scene.stepSeconds()) {
-    throw Refusal(fmt::format("busy_wait: must be from 0 to {:g} s, half a step, found {}",
-                              0.5 * scene.stepSeconds(), p.busy_wait));
+    throw InputError(fmt::format("busy_wait: must be from 0 to {:g} s, half a step, found {}",
+                                 0.5 * scene.stepSeconds(), p.busy_wait));
   }
 }
 
@@ -148,7 +149,7 @@ void run() {
   requireFits(settings, scene);
   const std::int64_t every = stepsToPublish(scene, settings.publish_rate);
 
-  // Half a second of records, or some: what the publisher may be late by.
+  // Buffer for half a second of delay of the publisher, at least 64 records.
   const auto capacity =
       static_cast<std::size_t>(std::max<std::int64_t>(64, 500'000'000 / scene.step));
   LiveTwin live(scene, std::min<std::size_t>(capacity, 100'000));
@@ -163,10 +164,10 @@ void run() {
   TwinServices services(live, private_node,
                         [&] { return !stopRequested() && ros::ok() && loop.running(); });
   if (resumed) {
-    services.goOnFrom(*resumed, settings.resume);
+    services.resumeFrom(*resumed, settings.resume);
   }
   if (settings.paused) {
-    live.putBack(true);
+    live.restore(true);
   }
   LockstepListeners lockstep(live, node,
                              lockstepSettings(settings.lockstep, settings.lockstep_ahead,
@@ -180,7 +181,7 @@ void run() {
       std::chrono::microseconds(std::llround(settings.batch * 1.0e6)), settings.clock,
       settings.measure);
   if (resumed) {
-    publisher.putBack(*resumed, settings.resume);
+    publisher.restore(*resumed, settings.resume);
     ROS_INFO("resumed from step %ld, t = %g s, of %s", static_cast<long>(resumed->step),
              live.twin().time(), settings.resume.c_str());
   }
@@ -237,7 +238,7 @@ void run() {
   reportMaster(master, diagnostics);
   ChangedParameters parameters(master);
   parameters.report(diagnostics);
-  LcmRivals rivals(settings.lcm_prefix);
+  DuplicatePublishers rivals(settings.lcm_prefix);
   if (publisher.onLcm()) {
     rivals.listen(settings.lcm_url);
     rivals.report(diagnostics);
@@ -259,7 +260,7 @@ void run() {
            status.policy.c_str(), status.priority, status.memory_locked ? "" : "not ");
   publisher.start();
 
-  // Wall time: simulated time stands still in a pause and goes back in a reset.
+  // Wall time: simulated time is constant during a pause and jumps back in a reset.
   auto next_report = std::chrono::steady_clock::now();
   while (!stopRequested() && ros::ok() && loop.running()) {
     ros::getGlobalCallbackQueue()->callAvailable(

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kStateQueue = 2000;  // two seconds at 1 kHz
 
-/// To ROS and to LCM, which latches nothing.
+/// Publishes to ROS and to LCM, which has no latched topics.
 struct StepSink {
   RosTopics& topics;
   LcmPublisher& lcm;
@@ -68,7 +68,7 @@ void StatePublisher::publish(const Observer& observer, bool all) {
   }
 }
 
-void StatePublisher::tellParametersAgain() {
+void StatePublisher::republishParameters() {
   messages_.tellAgain(StepSink{topics_, lcm_});
 }
 

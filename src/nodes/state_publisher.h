@@ -1,5 +1,5 @@
-// Publishes what leaves the twin's steps on ROS topics and LCM channels. Belongs to the publisher
-// thread.
+// Publishes the states of the twin's steps on ROS topics and LCM channels. Used by the publisher
+// thread only.
 #pragma once
 
 #include <ros/ros.h>
@@ -18,7 +18,7 @@
 
 namespace whirl_twin {
 
-/// [Hz], that a node can publish states at.
+/// [Hz], valid publication rates of states.
 inline const ParameterRange kPublishRates{1.0e-3, HUGE_VAL, "Hz", "every step"};
 
 /// Steps of the scene from one publication to the next.
@@ -30,31 +30,29 @@ inline std::int64_t stepsToPublish(const Scene& scene, double rate) {
 class StatePublisher {
  public:
   /// Advertises every topic of the scene under `node`; `ensembles` are the twin's. clock_period
-  /// [ns, simulated]: also /clock, the stamps of states so far apart; 0: no clock. Throws Refusal
-  /// for an LCM prefix that makes a channel too long.
+  /// [ns, simulated]: interval between the states that also publish their stamps on /clock; 0: no
+  /// clock. Throws InputError for an LCM prefix that makes a channel too long.
   StatePublisher(const Twin& twin, EnsembleObserver ensembles, ros::NodeHandle node,
                  LcmPublisher lcm, std::int64_t clock_period = 0);
 
-  /// On ROS messages leave with the next send(), but those of latched topics.
+  /// Sends the queued ROS messages; those of latched topics were sent at once.
   void send() { topics_.send(); }
-  /// Publishes what the observer stands at; all: also what leaves every step, and not only the
-  /// parameters that have changed. Messages without a subscriber, and channels with LCM off, are
-  /// not filled.
+  /// Publishes the observer's present state; all: the messages of every step, else only the changed
+  /// parameters. Messages without a subscriber, and channels with LCM off, are not filled.
   void publish(const Observer& observer, bool all);
-  /// Publishes the statistics of those ensembles that have newer ones than when last asked, if
-  /// somebody listens; the observer says when now is.
+  /// Publishes the statistics of the ensembles that were updated since the last call, if there are
+  /// subscribers, stamped with the observer's time.
   void publishEnsembles(const Observer& observer);
   /// Publishes the orders that are due at the observer's step.
   void publishOrders(const Observer& observer, const OrderObserver& orders);
-  /// On LCM, which latches nothing, once more what has not changed: the parameters,
-  void tellParametersAgain();
-  /// and what was told.
+  /// Republishes unchanged messages on LCM, which has no latched topics: the parameters,
+  void republishParameters();
+  /// and messages of tell().
   template <class State>
   void tellAgain(const State& state) {
     lcm_.publish(state);
   }
-  /// Publishes what does not come from a record: the loop's statistics, what sensors measure, what
-  /// a follower has learned.
+  /// Publishes a message that is not part of a record: loop statistics, measurements, estimates.
   template <class State>
   void tell(const State& state) {
     topics_.publish(state);
@@ -64,7 +62,7 @@ class StatePublisher {
   void advertise(const std::string& subject) {
     topics_.advertise<State>(subject);
   }
-  /// The clock alone, for those who join while the twin is paused; only with clock.
+  /// Publishes /clock only, for subscribers that join while the twin is paused; requires a clock.
   void publishClock(const Observer& observer);
 
   const LcmPublisher& lcm() const { return lcm_; }

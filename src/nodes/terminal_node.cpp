@@ -1,7 +1,7 @@
-// terminal_node: the state of the twin in a terminal, for machines without a screen.
+// terminal_node: prints the state of the twin in a terminal, for machines without a display.
 //
-// On a terminal a line for each system is rewritten in place five times a second; into a file or a
-// pipe goes one line a second. Alerts raised and cleared are lines of their own and stay.
+// On a terminal, a line per system is rewritten in place five times a second; into a file or a
+// pipe, a line is written once a second. Alerts raised and cleared are permanent lines.
 #include <fmt/format.h>
 #include <ros/ros.h>
 #include <sys/ioctl.h>
@@ -44,7 +44,7 @@ class TerminalDisplay {
       if (readout.whirl || readout.pendulum) {
         SystemReadout known = readout;
         if (!silence.empty()) {
-          known.margin.reset();  // it would look live
+          known.margin.reset();  // an outdated margin would look live
         }
         readouts.push_back(readoutText(system, known));
       }
@@ -85,10 +85,10 @@ class TerminalDisplay {
     ++shown_;
   }
 
-  /// Names and texts come from whoever publishes.
+  /// Names and texts are not trusted: any publisher may set them.
   static void put(const std::string& line) { std::puts(printable(line, line.size()).c_str()); }
 
-  // Takes back the lines that are to be rewritten: up, to the first column, clear what is below.
+  // Cursor up to the lines to be rewritten, to the first column, clear below.
   void erase() {
     if (shown_ > 0) {
       std::printf("\x1b[%dA\r\x1b[J", shown_);
@@ -98,12 +98,12 @@ class TerminalDisplay {
 
   static void flush() {
     if (std::fflush(stdout) != 0) {
-      ros::shutdown();  // the reader of the pipe has gone
+      ros::shutdown();  // the reader of the pipe has closed it
     }
   }
 
   bool is_terminal_;
-  int shown_ = 0;  // lines on the terminal that the next frame replaces
+  int shown_ = 0;  // lines on the terminal that the next frame overwrites
   TwinListener listener_;
   std::vector<Alert> alerts_;
   ros::WallTimer discover_timer_;

@@ -15,8 +15,8 @@ namespace whirl_twin {
 
 namespace {
 
-/// [s], that a command to an input may hold.
-constexpr double kLongestCommand = state::InputCommand::kLongest;
+/// [s], longest duration of a command to an input.
+constexpr double kMaxCommand = state::InputCommand::kLongest;
 
 constexpr std::chrono::microseconds kAnswerPoll{500};
 
@@ -107,7 +107,8 @@ bool TwinServices::reset(Trigger::Request&, Trigger::Response& response) {
   return true;
 }
 
-/// From update to update of the ramps that are under way, so that each comes at its step.
+/// Steps in parts that end at the updates of active ramps, so that each update is applied at its
+/// step.
 bool TwinServices::stepPastUpdates(std::uint64_t steps, TwinAnswer& answer) {
   const std::uint64_t pauses = pauses_.load();
   TwinCommand command;
@@ -151,7 +152,7 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
     }
     const std::string near = nearestName(request.drive, names);
     response.message = fmt::format("drive: must be a drive of the scene, found {}{}",
-                                   whirl_twin::quoted(request.drive),
+                                   whirl_twin::inQuotes(request.drive),
                                    near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
     return true;
   }
@@ -179,7 +180,7 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
     return true;
   }
   move.speed = command.speed = reach->target;
-  response.message = parameters_.objectionTo(command.drive, *reach);
+  response.message = parameters_.diagnosticOf(command.drive, *reach);
   if (!response.message.empty()) {
     return true;
   }
@@ -208,7 +209,7 @@ std::string TwinServices::readInput(const std::string& system_name, const std::s
   }
   const auto system = std::find(systems.begin(), systems.end(), system_name);
   if (system == systems.end()) {
-    return fmt::format("system: must be a system of the scene, found {}{}", quoted(system_name),
+    return fmt::format("system: must be a system of the scene, found {}{}", inQuotes(system_name),
                        hint(system_name, systems));
   }
   command.kind = TwinCommand::Kind::kSetInput;
@@ -229,14 +230,14 @@ std::string TwinServices::readInput(const std::string& system_name, const std::s
   }
   if (!found) {
     return fmt::format("input: must be an input given as a number in the scene, found {}{}",
-                       quoted(input),
+                       inQuotes(input),
                        commanded.empty() ? "; there are none" : hint(input, commanded));
   }
   if (!std::isfinite(value)) {
     return fmt::format("value: must be a finite number, found {}", value);
   }
-  if (!(duration > 0.0 && duration <= kLongestCommand)) {
-    return fmt::format("duration: must be > 0 s and at most {:g} s, found {}", kLongestCommand,
+  if (!(duration > 0.0 && duration <= kMaxCommand)) {
+    return fmt::format("duration: must be > 0 s and at most {:g} s, found {}", kMaxCommand,
                        duration);
   }
   command.value = value;

@@ -1,5 +1,5 @@
-// The services of the simulation node: each hands a command to the loop and answers when it is
-// done. ~pause has a thread of its own, and ends a ~step that is under way.
+// The services of the simulation node: each passes a command to the loop and answers when it is
+// done. ~pause has a separate thread, and interrupts a ~step in progress.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -25,38 +25,39 @@
 
 namespace whirl_twin {
 
-/// Why a real-time factor cannot be taken; "" if it can.
+/// Why a real-time factor is invalid; "" if it is valid.
 std::string factorFault(double factor);
 
 class TwinServices {
  public:
-  /// Advertises under `node`. A service waits for its command as long as keep_waiting() is true,
-  /// which any thread may ask.
+  /// Advertises under `node`. A service waits for its command while keep_waiting() is true, which
+  /// is called from any thread.
   TwinServices(LiveTwin& twin, ros::NodeHandle node, std::function<bool()> keep_waiting);
 
-  /// Changes of parameters that go in a ramp are under way: continueRamps() is to be called every
+  /// Whether ramped parameter changes are in progress: continueRamps() must then be called every
   /// few milliseconds.
   bool ramping() const { return parameters_.ramping(); }
   void continueRamps();
 
-  // Of checkpoints (twin/checkpoint.h).
+  // Checkpoints (twin/checkpoint.h).
 
-  /// Between two calls of services.
+  /// Not during a call of a service.
   bool take(Checkpoint& out) {
     return takeCheckpoint(
         twin_, parameters_, [this] { return wait(); }, out);
   }
-  /// The loop has ended.
+  /// After the end of the loop.
   void takeAtRest(Checkpoint& out) { whirl_twin::takeAtRest(twin_, parameters_, out); }
-  /// The loop is yet to begin.
-  void goOnFrom(const Checkpoint& checkpoint, const std::string& source) {
+  /// Before the start of the loop.
+  void resumeFrom(const Checkpoint& checkpoint, const std::string& source) {
     whirl_twin::resume(checkpoint, twin_, parameters_, source);
   }
 
-  /// A command that came by topic or channel. Returns why it is refused; "" if it is on its way.
+  /// Passes on a command received by topic or channel. Returns why it is rejected; "" if it was
+  /// accepted.
   std::string take(const state::InputCommand& command, const std::string& by);
-  /// Inputs that are not the scene's at present: which, by whom, since when and until when; "": all
-  /// are. What they do to a twin may hide what its machine would do.
+  /// Inputs that a command overrides at present: which, by whom, since when and until when; "" if
+  /// none. Their effect on a twin may mask the behaviour of its machine.
   std::string heldInputs() const;
 
  private:
@@ -69,7 +70,7 @@ class TwinServices {
   bool setInput(ros::ServiceEvent<SetInput::Request, SetInput::Response>& call);
   void noteInput(const std::string& system, const std::string& input, double value, double duration,
                  const std::string& by);
-  /// Fills the command that sets an input to a value for a duration [s]; what is wrong, or "".
+  /// Fills the command that sets an input to a value for a duration [s]; returns the error, or "".
   std::string readInput(const std::string& system, const std::string& input, double value,
                         double duration, TwinCommand& command) const;
   bool setParameter(SetParameter::Request& request, SetParameter::Response& response);
@@ -78,10 +79,10 @@ class TwinServices {
 
   bool trigger(TwinCommand::Kind kind, const char* done, Trigger::Response& response);
   void advertisePause(ros::NodeHandle node);
-  /// Until all that was sent is carried out; false when the loop ended first.
+  /// Waits until all commands sent are executed; false if the loop ended first.
   bool wait();
   bool stepPastUpdates(std::uint64_t steps, TwinAnswer& answer);
-  /// Sends and waits; false when the loop ended first or takes no commands.
+  /// Sends a command and waits; false if the loop ended first or accepts no commands.
   bool carryOut(const TwinCommand& command, TwinAnswer& answer);
 
   LiveTwin& twin_;
@@ -92,11 +93,11 @@ class TwinServices {
     std::int64_t since, until;  // steps
   };
   std::map<std::string, HeldInput> held_inputs_;
-  std::atomic<std::uint64_t> pauses_{0};  // asked for
-  // ~pause is not kept waiting by a service that takes long.
+  std::atomic<std::uint64_t> pauses_{0};  // number of requests
+  // A separate queue, so that ~pause does not wait for a long service.
   ros::CallbackQueue pause_queue_;
   ros::AsyncSpinner pause_thread_{1, &pause_queue_};
-  std::vector<ros::ServiceServer> servers_;  // gone before the queue that one of them has
+  std::vector<ros::ServiceServer> servers_;  // last: destroyed before pause_queue_
 };
 
 }  // namespace whirl_twin

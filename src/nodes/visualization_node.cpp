@@ -1,9 +1,9 @@
-// visualization_node: states of the twin to rviz markers and tf.
+// visualization_node: publishes states of the twin as rviz markers and tf.
 //
-// Publishes markers (visualization_msgs/MarkerArray, frame `world`) and the tf frames
-// world -> <system> -> <system>_disc or <system>_body, as drawn, of the twin whose namespace it is
-// in, and world -> twin_view, which the camera of config/rviz/demo.rviz follows. The models are
-// those of its scene, if there is one.
+// Publishes markers (visualization_msgs/MarkerArray, frame `world`) and the tf frames world ->
+// <system> -> <system>_disc or <system>_body, as drawn, of the twin in its namespace, and world ->
+// twin_view, which the camera of config/rviz/demo.rviz follows. The models are those of the twin's
+// scene, if there is one.
 #include <fmt/format.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -22,7 +22,7 @@
 #include "display/twin_listener.h"
 #include "display/twin_panel.h"
 #include "display/vibration_limits.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "nodes/node_parameters.h"
 #include "plugins/plugins.h"
 #include "transport/master_watch.h"
@@ -50,7 +50,7 @@ NodeParameters table(DisplayParameters& p) {
   return all;
 }
 
-const ros::WallDuration kMeasuredFor(1.0);  // what was measured is shown
+const ros::WallDuration kMeasuredFor(1.0);  // display time of a measurement
 
 geometry_msgs::TransformStamped stampedTransform(const std::string& parent,
                                                  const std::string& child, const ros::Time& stamp,
@@ -106,7 +106,7 @@ class VisualizationNode {
         [this](const LoopStatistics& loop) { loop_.take(loop, ros::WallTime::now().toSec()); });
     listener_.onParameters([this](const ParameterChange& change) { takeParameters(change); });
     discover();
-    // Wall timers, so that the picture lives on while simulated time stands still.
+    // Wall timers: the display is also updated while simulated time is constant.
     discover_timer_ =
         node.createWallTimer(ros::WallDuration(1.0), [this](const auto&) { discover(); });
     draw_timer_ =
@@ -121,7 +121,7 @@ class VisualizationNode {
                : mechanisms_.try_emplace(system, system, scene_.dynamics(system)).first->second;
   }
 
-  /// Null for a rotor that has no shaft with places along it, or is not known.
+  /// Null for an unknown rotor, or one without stations along a shaft.
   ShaftDisplay* shaftOf(const std::string& system) {
     const auto found = shafts_.find(system);
     if (found != shafts_.end()) {
@@ -177,7 +177,7 @@ class VisualizationNode {
       rotors_.clear();
       shafts_.clear();
       controllers_.clear();
-      for (const auto& [system, change] : parameters_) {  // latched: they came before
+      for (const auto& [system, change] : parameters_) {  // latched messages that arrived before
         scene_.take(change);
       }
     }
@@ -245,14 +245,14 @@ class VisualizationNode {
     transforms.push_back(
         stampedTransform(MarkerCanvas::kWorldFrame, ViewedFrom::kFrame, now, view));
     publisher_.publish(markers);
-    // With simulated time standing still tf would warn of the same stamp again and again.
+    // tf warns of repeated stamps, which occur while simulated time is constant.
     if (now != transformed_) {
       broadcaster_.sendTransform(transforms);
       transformed_ = now;
     }
   }
 
-  /// What the monitor says of a system; that it says nothing, where it is silent.
+  /// The result of the monitor for a system, or that the monitor has timed out.
   SystemStatus statusOf(const std::string& name) {
     const SystemReadout& readout = listener_.systems().at(name);
     SystemStatus status;
@@ -272,7 +272,7 @@ class VisualizationNode {
     const SystemReadout& of = judged == listener_.systems().end() ? readout : judged->second;
     status.live =
         liveMargin(of.margin, ros::WallTime::now().toSec() - of.margin_heard, held, silence);
-    // As the monitor, which requires no damping of what is no rotor.
+    // As in the monitor, which requires no damping of systems other than rotors.
     status.live.least_decrement = readout.whirl ? settings_.log_decrement_warning : 0.0;
     status.live.least_decay_rate = readout.whirl ? settings_.decay_rate_alarm : 0.0;
     status.alerts = listener_.alertsOf(name);
@@ -301,7 +301,7 @@ class VisualizationNode {
     return status;
   }
 
-  /// Of the further places of a shaft their limits and alerts.
+  /// Limits and alerts of the further stations of a shaft.
   void addPlaces(const ShaftDisplay& shaft, SystemStatus& status) {
     const std::vector<std::string> names = shaft.published();
     for (std::size_t i = 1; i < names.size(); ++i) {
@@ -336,7 +336,7 @@ class VisualizationNode {
   std::map<std::string, ParameterChange> parameters_;  // the latest of each system
   std::map<std::string, MechanismDisplay> mechanisms_;
   std::map<std::string, LiveController> controllers_;
-  std::map<std::string, ros::WallTime> measured_at_;  // where each was measured last
+  std::map<std::string, ros::WallTime> measured_at_;  // last measurement of each
   std::vector<std::string> drawn_;                    // systems in the order of the last frame
   ros::Publisher publisher_;
   tf2_ros::TransformBroadcaster broadcaster_;
@@ -362,7 +362,7 @@ int main(int argc, char** argv) {
     const whirl_twin::VisualizationNode visualization(parameters);
     const whirl_twin::MasterWatch master;
     ros::spin();
-  } catch (const whirl_twin::Refusal& error) {
+  } catch (const whirl_twin::InputError& error) {
     std::fprintf(stderr, "visualization_node: %s\n", error.what());
     return 2;
   }

@@ -16,7 +16,7 @@ constexpr double kGap = 12.0;        // px, between groups
 constexpr double kHead = 62.0;       // px: title and subtitle
 constexpr double kBarLegendRow = 24.0;
 constexpr double kBarChartFoot = 56.0;
-constexpr double kWhisker = 4.0;  // px, half of its end
+constexpr double kWhisker = 4.0;  // px, half length of its end cap
 constexpr std::array kBarInks{ink::kBlue, ink::kSkyBlue, ink::kOrange};
 
 const Lettering kSubtitle{13.0, ink::kGrey, Align::kMiddle, Align::kMiddle};

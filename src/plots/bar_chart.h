@@ -1,5 +1,5 @@
-// Bars side by side from a base line, one group a name: what weighs most stands at the top where
-// the groups come in that order (a tornado chart).
+// Horizontal bar chart: bars from a base line, one group per name; with groups sorted by weight,
+// largest on top, a tornado chart.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace whirl_twin {
 /// From the base line to a value; one that is not finite is not drawn.
 struct Bar {
   double value = 0.0;
-  /// Ends of the interval that it is known within; not finite: none is drawn.
+  /// Ends of its confidence interval; not finite: not drawn.
   double low = 0.0, high = 0.0;
 };
 
@@ -28,10 +28,10 @@ struct BarChart {
   ChartAxis x;                     ///< linear
   std::vector<std::string> names;  ///< of the bars of a group, in the legend
   std::vector<BarGroup> groups;    ///< from the top down
-  double base = 0.0;               ///< where bars begin
+  double base = 0.0;               ///< base line of the bars
 };
 
-/// The file. Throws RunFailure.
+/// The contents of the file. Throws RunFailure.
 std::string barImage(const BarChart& chart, ImageFormat format);
 
 }  // namespace whirl_twin

@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "algebra/constants.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 
 namespace whirl_twin {
 namespace {
@@ -19,7 +19,7 @@ cairo_status_t append(void* file, const unsigned char* bytes, unsigned int count
   return CAIRO_STATUS_SUCCESS;
 }
 
-/// To an eighth of a pixel: more is not seen and makes files longer. (Cairo counts in 1/256.)
+/// To an eighth of a pixel: more is invisible and makes files longer. (Cairo counts in 1/256.)
 double rounded(double pixels) {
   return std::round(8.0 * pixels) / 8.0;
 }
@@ -42,7 +42,7 @@ Ink mixed(const Ink& ink, double share, double other) {
 ImageFormat imageFormat(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension();
   if (extension != ".svg" && extension != ".png") {
-    throw Refusal(fmt::format("a picture: must end in .svg or .png, found '{}'", path));
+    throw InputError(fmt::format("a picture: must end in .svg or .png, found '{}'", path));
   }
   return extension == ".svg" ? ImageFormat::kSvg : ImageFormat::kPng;
 }
@@ -184,7 +184,7 @@ std::string Canvas::finish() {
         fmt::format("a picture could not be drawn: {}", cairo_status_to_string(status)));
   }
   if (sheet_->format == ImageFormat::kSvg) {
-    // Cairo writes letters as shapes; what they say stands here.
+    // Cairo writes letters as glyph outlines; the plain text is inserted here.
     const std::size_t head = sheet_->file.find('>', sheet_->file.find("<svg")) + 1;
     sheet_->file.insert(head, fmt::format("\n<title>{}</title>\n<desc>{}</desc>",
                                           escaped(sheet_->title), escaped(sheet_->description)));

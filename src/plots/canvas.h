@@ -12,26 +12,27 @@ namespace whirl_twin {
 
 enum class ImageFormat { kSvg, kPng };
 
-/// By its extension, .svg or .png. Throws Refusal.
+/// By its extension, .svg or .png. Throws InputError.
 ImageFormat imageFormat(const std::string& path);
 
 /// A colour, each part from 0 to 1.
 struct Ink {
   double red = 0.0, green = 0.0, blue = 0.0;
 };
-/// `share` of white in it: 0 leaves it, 1 is white.
+/// Mixed with `share` of white: 0 leaves it unchanged, 1 is white.
 Ink paler(const Ink& ink, double share);
 Ink darker(const Ink& ink, double share);
 
 namespace ink {
-// Colours that every kind of eye tells apart (M. Okabe, K. Ito: Color Universal Design, 2008).
+// Colours distinguishable with every kind of colour vision (M. Okabe, K. Ito: Color Universal
+// Design, 2008).
 inline constexpr Ink kBlue{0.0, 0.447, 0.698};
 inline constexpr Ink kVermilion{0.835, 0.369, 0.0};
 inline constexpr Ink kGreen{0.0, 0.620, 0.451};
 inline constexpr Ink kPurple{0.8, 0.475, 0.655};
 inline constexpr Ink kOrange{0.902, 0.624, 0.0};
 inline constexpr Ink kSkyBlue{0.337, 0.706, 0.914};
-// And further ones, where those are not enough.
+// Additional colours.
 inline constexpr Ink kBrown{0.55, 0.27, 0.07};
 inline constexpr Ink kOlive{0.55, 0.58, 0.10};
 inline constexpr Ink kNavy{0.16, 0.16, 0.48};
@@ -54,7 +55,7 @@ struct Lettering {
   Align across = Align::kStart;  ///< of the text about its place, from left to right
   Align down = Align::kMiddle;   ///< kStart: below its place
   bool bold = false;
-  bool upwards = false;  ///< turned a quarter to the left
+  bool upwards = false;  ///< rotated by a quarter turn to the left
 };
 
 // Of charts.
@@ -65,7 +66,7 @@ inline constexpr Lettering kLegendLettering{13.0, ink::kBlack, Align::kStart, Al
 
 class Canvas {
  public:
-  /// A white sheet, [px]; title and description go into an SVG for those who read it as text.
+  /// A white sheet, [px]; title and description are written into an SVG for screen readers.
   Canvas(ImageFormat format, int width, int height, std::string title, std::string description);
   ~Canvas();
   Canvas(const Canvas&) = delete;

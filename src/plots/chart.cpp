@@ -10,14 +10,14 @@
 namespace whirl_twin {
 namespace {
 
-constexpr std::size_t kMostSpots = 10000;  // of a whole SVG
+constexpr std::size_t kMaxSpots = 10000;  // of a whole SVG
 const Lettering kFigureTitle{17.0, ink::kBlack, Align::kMiddle, Align::kMiddle, true};
 
 std::string words(const ChartAxis& axis) {
   return axis.second ? fmt::format("{}, {}", axis.label, axis.second->label) : axis.label;
 }
 
-/// The figure in words.
+/// A text description of the figure.
 std::string description(const Figure& figure) {
   std::string text;
   for (const Chart& chart : figure.charts) {
@@ -53,7 +53,7 @@ std::string figureImage(const Figure& figure, ImageFormat format) {
   canvas.text({0.5 * figure.width, 19.0}, figure.title, kFigureTitle);
 
   const std::size_t most_spots =
-      format == ImageFormat::kSvg ? kMostSpots : std::numeric_limits<std::size_t>::max();
+      format == ImageFormat::kSvg ? kMaxSpots : std::numeric_limits<std::size_t>::max();
   std::size_t all_series = 0;
   for (const Chart& chart : figure.charts) {
     all_series += static_cast<std::size_t>(

@@ -12,26 +12,27 @@ namespace whirl_twin {
 
 enum class Marks { kNone, kDots, kRings };
 
-/// A curve; x and y of equal length. A point that no axis can show, because it is not finite or
-/// beyond 1e300 (on a logarithmic axis: not positive, or below 1e-300), breaks the line.
+/// A curve; x and y of equal length. A point outside the range of the axes, because it is not
+/// finite or beyond 1e300 (on a logarithmic axis: not positive, or below 1e-300), interrupts the
+/// line.
 struct Series {
-  std::string name;  ///< in the legend, which is there for several names; "": not in it
+  std::string name;  ///< in the legend, which is drawn for several names; "": not in it
   std::vector<double> x, y;
   std::optional<Pen> pen = std::nullopt;  ///< none: the next colour of the palette
   bool line = true;                       ///< a line through the points
   Marks marks = Marks::kNone;             ///< at every point
-  /// The points go around an area of this colour, behind the curves; it has no line of its own.
+  /// The points bound an area of this colour, behind the curves, without an outline.
   std::optional<Ink> fill = std::nullopt;
 };
 
-/// A range of x with a ground of its own, behind everything.
+/// A range of x with a background colour, behind everything.
 struct Band {
   std::string name;  ///< in the legend; "": not in it
   double low = 0.0, high = 0.0;
   Ink ink;
 };
 
-/// The same in another unit, so many of which are one of the axis: rad/s as rpm.
+/// A second unit of the axis, with its conversion factor: rad/s as rpm.
 struct SecondScale {
   std::string label;
   double factor = 1.0;
@@ -41,18 +42,18 @@ struct ChartAxis {
   std::string label;  ///< with its unit: "time (s)"
   bool logarithmic = false;
   bool tight = false;  ///< ends where the data end, not at the next tick
-  /// Above the chart, of y right of it; of a linear axis, along which units are no equal lengths.
+  /// Above the chart, for y right of it; of a linear axis.
   std::optional<SecondScale> second = std::nullopt;
-  bool degrees = false;  ///< marked at parts of a turn
+  bool degrees = false;  ///< with ticks at fractions of a turn
 };
 
-/// A line across the whole chart: a critical speed, a limit. Seen where the data reach it.
+/// A line across the whole chart: a critical speed, a limit. Drawn within the range of the data.
 struct ReferenceLine {
   double at = 0.0;
   std::string label;
 };
 
-/// Words beside a point, where they cover no curve.
+/// A label beside a point, placed where it covers no curve.
 struct Note {
   double x = 0.0, y = 0.0;
   std::string text;
@@ -66,7 +67,7 @@ struct Chart {
   std::vector<ReferenceLine> horizontal;  ///< at a y
   std::vector<Band> bands;
   std::vector<Note> notes;
-  bool equal_aspect = false;  ///< one unit is as long along x as along y; linear axes
+  bool equal_aspect = false;  ///< equal scales along x and y; linear axes
 };
 
 struct Figure {
@@ -77,8 +78,8 @@ struct Figure {
   int chart_height = 460;  ///< [px], of each row
 };
 
-/// The file. Long series are thinned to what can be seen: an SVG stays below about 200 kB.
-/// Throws RunFailure.
+/// The contents of the file. Long series are thinned to the visible resolution: an SVG stays below
+/// about 200 kB. Throws RunFailure.
 std::string figureImage(const Figure& figure, ImageFormat format);
 
 }  // namespace whirl_twin

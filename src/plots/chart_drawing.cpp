@@ -11,14 +11,14 @@ namespace {
 constexpr double kLegendRow = 20.0;  // px
 constexpr double kSample = 24.0;     // px, of a line in the legend
 constexpr int kTicksAcross = 9;
-constexpr double kPixelsPerTick = 30.0;  // of a vertical axis, at least
+constexpr double kPixelsPerTick = 30.0;  // minimum, of a vertical axis
 
 const Lettering kChartTitle{14.0, ink::kBlack, Align::kMiddle, Align::kMiddle, true};
 constexpr double kSecondScale = 34.0;  // px, of the horizontal axis above the chart
 constexpr double kRightMargin = 22.0;  // px
-constexpr double kPixelsOfRpm = 90.0;  // a mark of the scale above, at least
+constexpr double kPixelsOfRpm = 90.0;  // minimum distance of ticks of the upper scale
 
-/// Its own, or one of seven colours, then the same dashed.
+/// Its own pen, or one of seven colours, then the same dashed.
 Pen penOf(const Chart& chart, std::size_t series) {
   if (chart.series[series].pen) {
     return *chart.series[series].pen;
@@ -49,7 +49,7 @@ MarkedAxis scaled(const MarkedAxis& axis, const SecondScale& second, int most) {
   return other;
 }
 
-/// "rpm", with the power of ten of its marks.
+/// "rpm", with the power of ten of its ticks.
 std::string nameOf(const SecondScale& second, const MarkedAxis& axis) {
   return axis.labels.exponent == 0 ? second.label
                                    : second.label + " \u00d7" + powerOfTen(axis.labels.exponent);
@@ -79,7 +79,7 @@ ChartDrawing::ChartDrawing(const Chart& chart, const Rectangle& place, std::size
   if (chart.y.second) {
     right_ = scaled(y_, *chart.y.second, most);
   }
-  // The exponent and the second scale stand above the axes.
+  // The exponent and the second scale are above the axes.
   const double above = chart.x.second ? kSecondScale : y_.labels.exponent != 0 ? 14.0 : 0.0;
   plot_.top += above;
   plot_.height -= above;
@@ -133,7 +133,7 @@ void ChartDrawing::draw(double left_margin, double right_margin) {
   drawLegend();
 }
 
-/// The names in as many rows as they need: they cover no curve.
+/// The names in as many rows as needed, without overlap with curves.
 void ChartDrawing::placeLegend() {
   for (std::size_t i = 0; i < chart_.series.size(); ++i) {
     if (!chart_.series[i].name.empty()) {

@@ -1,4 +1,4 @@
-// How one chart is drawn on a canvas: axes, bands, lines, marks and legend.
+// Drawing of one chart on a canvas: axes, bands, lines, markers and legend.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ class ChartDrawing {
  private:
   static constexpr double kMark = 4.5;  ///< [px], radius
 
-  /// Does a place along an axis, in parts of it, lie in the chart?
+  /// Is a position along an axis, as a fraction of it, within the chart?
   static bool seen(double place) { return place > -1.0e-6 && place < 1.0 + 1.0e-6; }
 
   struct LegendEntry {

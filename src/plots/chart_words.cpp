@@ -1,4 +1,4 @@
-// The words in a chart: names of reference lines, and notes, where they cover nothing.
+// The labels in a chart: names of reference lines, and notes, placed without overlap.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -52,7 +52,7 @@ void ChartDrawing::drawWords() {
     }
     const auto place = std::find_if(around.begin(), around.end(),
                                     [&](const Rectangle& near) { return places.free(near); });
-    if (place != around.end()) {  // farther away they would be another point's
+    if (place != around.end()) {  // farther away they would be ambiguous
       places.avoid(*place);
       canvas_.text({place->left, place->top + 0.5 * kWordsHeight}, note.text,
                    {kWordsSize, ink::kBlack, Align::kStart, Align::kMiddle});
@@ -60,8 +60,8 @@ void ChartDrawing::drawWords() {
   }
 }
 
-/// Each beside its line: at a vertical one upright, the higher the better, or level where that
-/// finds no room; along a horizontal one, the farther right the better.
+/// Each beside its line: at a vertical one rotated, preferably high, or horizontal where that does
+/// not fit; along a horizontal one, preferably to the right.
 void ChartDrawing::nameReferences(LabelPlaces& places) {
   constexpr double kStride = 10.0;  // px
   Lettering upright{kWordsSize, ink::kGrey, Align::kMiddle, Align::kMiddle};

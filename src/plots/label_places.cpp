@@ -7,7 +7,7 @@
 namespace whirl_twin {
 namespace {
 
-/// Does the part of the line between two spots meet the area? (Liang and Barsky, 1984.)
+/// Does the line segment intersect the area? (Liang and Barsky, 1984.)
 bool crosses(const Spot& from, const Spot& to, const Rectangle& area) {
   double enters = 0.0, leaves = 1.0;
   const auto cut = [&](double start, double along, double low, double high) {
@@ -47,7 +47,7 @@ Rectangle LabelPlaces::take(const std::vector<Rectangle>& places) {
   return best;
 }
 
-/// What lies under it; the edge of the sheet counts as much as a hundred lines.
+/// Amount of overlap; the edge of the sheet counts as a hundred lines.
 int LabelPlaces::covered(const Rectangle& place) const {
   const bool inside = place.left >= sheet_.left && place.right() <= sheet_.right() &&
                       place.top >= sheet_.top && place.bottom() <= sheet_.bottom();

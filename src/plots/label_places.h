@@ -1,4 +1,4 @@
-// Where words stand on a chart: beside what they name, on no curve and on no other words.
+// Placement of labels on a chart: beside their objects, without overlap with curves or labels.
 #pragma once
 
 #include <vector>
@@ -16,16 +16,16 @@ struct Rectangle {
 
 class LabelPlaces {
  public:
-  /// Words stay inside this.
+  /// Labels stay inside this.
   explicit LabelPlaces(const Rectangle& sheet) : sheet_(sheet) {}
 
-  /// A line that no words may cover [px]; one that is not finite breaks it.
+  /// A line that no label may cover [px]; a point that is not finite interrupts it.
   void avoid(const std::vector<Spot>& line) { lines_.push_back(line); }
   void avoid(const Rectangle& area) { areas_.push_back(area); }
 
   bool free(const Rectangle& place) const { return covered(place) == 0; }
-  /// The first of these places that is free, else the one that covers least; taken from now on.
-  /// Not empty.
+  /// The first of these places that is free, else the one with the smallest overlap; it is marked
+  /// as occupied. Not empty.
   Rectangle take(const std::vector<Rectangle>& places);
 
  private:

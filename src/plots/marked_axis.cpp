@@ -9,7 +9,7 @@ namespace whirl_twin {
 namespace {
 
 bool canBeShown(double value, bool logarithmic) {
-  return std::fabs(value) <= kLargestOnAxis && (!logarithmic || value >= 1.0 / kLargestOnAxis);
+  return std::fabs(value) <= kMaxOnAxis && (!logarithmic || value >= 1.0 / kMaxOnAxis);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// An axis of a chart: its ends, its marks, and where a value stands along it.
+// An axis of a chart: its ends, its ticks, and the position of a value along it.
 #pragma once
 
 #include <vector>
@@ -14,18 +14,18 @@ struct MarkedAxis {
   TickLabels labels;
   bool degrees = false;
 
-  /// From 0 at the low end to 1; not finite where the axis has no such place.
+  /// From 0 at the low end to 1; not finite where the axis has no such position.
   double place(double value) const;
   /// Sets at most `most` ticks, and the ends at the outer ones unless it is tight.
   void mark(bool tight, int most);
 };
 
-/// One unit is as long along the one as along the other, these many pixels: the longer range is
-/// that of both. Their ticks, at most so many on each, are equally far apart and have one exponent.
+/// Equal scales of two axes of these lengths in pixels: the longer range is used for both. Their
+/// ticks, at most `most` on each, have the same spacing and one exponent.
 void markEqually(MarkedAxis& a, double a_pixels, MarkedAxis& b, double b_pixels, int most);
 
-/// From the smallest to the largest value that an axis can show (kLargestOnAxis; on a logarithmic
-/// one positive ones), with a length.
+/// From the smallest to the largest value within the range of an axis (kMaxOnAxis; on a
+/// logarithmic one positive values), with nonzero length.
 AxisRange dataRange(const std::vector<const std::vector<double>*>& values, bool logarithmic);
 
 }  // namespace whirl_twin

@@ -12,15 +12,15 @@ namespace whirl_twin {
 namespace {
 
 constexpr int kMapWidth = 800, kMapHeight = 560;  // px
-constexpr std::size_t kMostLevels = 100;          // of an axis, in an SVG
+constexpr std::size_t kMaxLevels = 100;           // of an axis, in an SVG
 constexpr int kShades = 128;
 const Ink kHole{0.8, 0.8, 0.8};
 
 const Pen kUnderContour{ink::kBlack, 4.0};
 const Pen kContour{{1.0, 1.0, 1.0}, 2.2};
 
-/// viridis (S. van der Walt, N. Smith, public domain): even steps of value are even steps to every
-/// kind of eye, and to a copier.
+/// viridis (S. van der Walt, N. Smith, public domain): perceptually uniform with every kind of
+/// colour vision, and in greyscale.
 Ink shade(double part) {
   static constexpr std::array<Ink, 9> kAnchors{{{0.267, 0.005, 0.329},
                                                 {0.278, 0.175, 0.483},
@@ -40,7 +40,7 @@ Ink shade(double part) {
           low.blue + more * (high.blue - low.blue)};
 }
 
-/// Every so many of them, so that no more than `most` are left.
+/// Every n-th of them, so that no more than `most` remain.
 std::vector<std::size_t> thinnedPlaces(std::size_t count, std::size_t most) {
   const std::size_t stride = (count + most - 1) / most;
   std::vector<std::size_t> places;
@@ -90,7 +90,7 @@ class MapDrawing {
   }
 
  private:
-  /// Where cells begin and end along an axis, from 0 to 1: half-way between the levels.
+  /// Boundaries of the cells along an axis, from 0 to 1: half-way between the levels.
   static std::vector<double> edges(const std::vector<double>& levels,
                                    const std::vector<std::size_t>& places, const MarkedAxis& axis) {
     std::vector<double> at{0.0};
@@ -250,7 +250,7 @@ std::vector<std::vector<Spot>> contourIn(double c00, double c01, double c10, dou
   cross(c01, c11, {1.0, 0.0}, {1.0, 1.0});
   cross(c11, c10, {1.0, 1.0}, {0.0, 1.0});
   cross(c10, c00, {0.0, 1.0}, {0.0, 0.0});
-  if (crossings.size() == 4) {  // a saddle: its middle tells which corners belong together
+  if (crossings.size() == 4) {  // a saddle: its middle decides which corners are connected
     const bool with_first = (0.25 * (c00 + c01 + c10 + c11) < value) == (c00 < value);
     return with_first ? std::vector<std::vector<Spot>>{{crossings[0], crossings[1]},
                                                        {crossings[2], crossings[3]}}
@@ -263,7 +263,7 @@ std::vector<std::vector<Spot>> contourIn(double c00, double c01, double c10, dou
 
 std::string mapImage(const ResponseMap& map, ImageFormat format) {
   const std::size_t most =
-      format == ImageFormat::kSvg ? kMostLevels : std::numeric_limits<std::size_t>::max() / 2;
+      format == ImageFormat::kSvg ? kMaxLevels : std::numeric_limits<std::size_t>::max() / 2;
   Canvas canvas(format, kMapWidth, kMapHeight, map.title,
                 map.label + " over " + map.x.label + " and " + map.y.label);
   MapDrawing(map, most, canvas).draw();

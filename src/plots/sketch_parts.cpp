@@ -16,7 +16,7 @@ constexpr Ink kSteel{0.70, 0.73, 0.77};
 constexpr Ink kIron{0.52, 0.56, 0.61};
 constexpr Ink kSpringWire{0.45, 0.36, 0.10};
 
-/// The convex outline of some places (A. M. Andrew, 1979).
+/// The convex hull of points (A. M. Andrew, 1979).
 std::vector<Spot> hull(std::vector<Spot> spots) {
   std::sort(spots.begin(), spots.end(),
             [](const Spot& a, const Spot& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
@@ -227,7 +227,7 @@ void drawParts(const Sketch& sketch, const SketchView& view, double pale, Canvas
     }
   };
   add(sketch.boxes);
-  // Rods at one depth are outlined together: a beam made of many is in one piece.
+  // Rods at one depth share an outline: a beam of many rods appears as one piece.
   for (const Sketch::Rod& rod : sketch.rods) {
     parts.push_back({view.depth(placeOf(rod)), [&drawing, &rod] { drawing.drawOutline(rod); }});
   }

@@ -1,4 +1,4 @@
-// The parts of a sketch, drawn from the rearmost to the foremost.
+// The elements of a sketch, drawn from the rearmost to the foremost.
 #pragma once
 
 #include "mechanics/sketch.h"

@@ -15,10 +15,10 @@ constexpr double kWidest = 800.0;   // px
 constexpr double kHighest = 620.0;  // px
 constexpr double kTop = 40.0;       // px, of the title
 constexpr double kMargin = 24.0;    // px
-constexpr double kFoot = 34.0;      // px, of the length to compare
+constexpr double kFoot = 34.0;      // px, area of the scale bar
 constexpr double kGhost = 0.72;     // share of white
 
-/// "0.2 m", a third of the picture at most.
+/// Scale bar, "0.2 m", a third of the picture at most.
 struct ScaleBar {
   double length;  // m
   std::string label;

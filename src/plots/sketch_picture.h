@@ -1,5 +1,5 @@
-// A picture of a Sketch (mechanics/sketch.h), to scale, with a length to compare: plane ones from
-// the front, spatial ones from slightly above and from the left.
+// A picture of a Sketch (mechanics/sketch.h), to scale, with a scale bar: plane ones from the
+// front, spatial ones from slightly above and from the left.
 #pragma once
 
 #include <string>
@@ -14,15 +14,16 @@ struct SketchPicture {
   std::string title;
   Sketch sketch;
   std::vector<Sketch> ghosts;                         ///< later positions, drawn faintly behind it
-  std::vector<SketchPoint> trace;                     ///< where the tracer has been; may be empty
+  std::vector<SketchPoint> trace;                     ///< past path of the tracer; may be empty
   std::vector<std::vector<SketchPoint>> orbits = {};  ///< closed paths, drawn as the trace is
   std::string note = "";                              ///< at the foot
 };
 
-/// Whether a sheet can show it: all its parts are at places within 1e100 m, and it has an extent.
+/// Can it be drawn? All its elements must be at positions within 1e100 m, and it must have an
+/// extent.
 bool fitsASheet(const SketchPicture& picture);
 
-/// The file. The picture is 800 px wide or, where it is upright, 620 px high. Throws
+/// The contents of the file. The picture is 800 px wide or, in portrait format, 620 px high. Throws
 /// RunFailure.
 std::string sketchImage(const SketchPicture& picture, ImageFormat format);
 

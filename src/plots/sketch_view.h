@@ -1,4 +1,4 @@
-// How a sketch is seen: a parallel projection of its points on the plane of a picture.
+// View of a sketch: a parallel projection of its points on the plane of a picture.
 #pragma once
 
 #include "mechanics/sketch.h"

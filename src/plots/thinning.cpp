@@ -9,17 +9,17 @@
 namespace whirl_twin {
 namespace {
 
-constexpr double kUnseen = 0.12;      // px, by which a line may be off
-constexpr double kCoarsest = 0.9;     // px, the same where there would be too many points
+constexpr double kUnseen = 0.12;      // px, maximum deviation of a line
+constexpr double kCoarsest = 0.9;     // px, the same if there would be too many points
 constexpr double kColumnWidth = 0.5;  // px
-constexpr double kCell = 0.75;        // px, less than a line is wide
+constexpr double kCell = 0.75;        // px, less than the width of a line
 
 bool runsForward(const std::vector<Spot>& line) {
   return std::is_sorted(line.begin(), line.end(),
                         [](const Spot& a, const Spot& b) { return a.x < b.x; });
 }
 
-/// Of a line that runs from left to right: first, lowest, highest and last point of every column.
+/// For a line from left to right: first, lowest, highest and last point of every pixel column.
 std::vector<Spot> thinnedByColumns(const std::vector<Spot>& line) {
   std::vector<Spot> kept;
   const auto above = [](const Spot& a, const Spot& b) { return a.y < b.y; };
@@ -53,7 +53,8 @@ double distance(const Spot& p, const Spot& a, const Spot& b) {
   return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
 }
 
-/// Douglas and Peucker: a stretch whose points are all within `tolerance` of its chord becomes it.
+/// Douglas-Peucker: a section whose points are all within `tolerance` of its chord is replaced by
+/// it.
 std::vector<Spot> simplified(const std::vector<Spot>& line, double tolerance) {
   std::vector<char> keep(line.size(), 0);
   keep.front() = keep.back() = 1;
@@ -85,11 +86,11 @@ std::vector<Spot> simplified(const std::vector<Spot>& line, double tolerance) {
   return kept;
 }
 
-/// The cells of a fine raster that a stretch passes.
+/// The cells of a fine raster that a section passes through.
 std::vector<std::uint64_t> cellsOf(const Spot& from, const Spot& to, double size) {
-  constexpr double kMostSteps = 1.0e5;  // of a stretch that leads far beyond any sheet
+  constexpr double kMaxSteps = 1.0e5;  // for a section that leads far beyond any sheet
   const double length = std::hypot(to.x - from.x, to.y - from.y);
-  const int steps = 1 + static_cast<int>(std::min(2.0 * length / size, kMostSteps));
+  const int steps = 1 + static_cast<int>(std::min(2.0 * length / size, kMaxSteps));
   const auto cellAt = [size](double place) {
     constexpr double kFarthest = 2.0e9;
     return static_cast<std::int32_t>(std::clamp(std::floor(place / size), -kFarthest, kFarthest));
@@ -105,7 +106,7 @@ std::vector<std::uint64_t> cellsOf(const Spot& from, const Spot& to, double size
   return cells;
 }
 
-/// With what passes through the same cells [px] as the same.
+/// Sections through the same cells [px] count as equal.
 std::vector<std::vector<Spot>> withoutRepeats(const std::vector<Spot>& line, double cell) {
   std::unordered_set<std::uint64_t> drawn;
   std::vector<std::vector<Spot>> pieces;

@@ -1,4 +1,4 @@
-// Fewer points for the same line: what a screen cannot show need not be in a file.
+// Thinning of lines: removes points below the resolution of a screen.
 #pragma once
 
 #include <cstddef>
@@ -6,18 +6,18 @@
 
 namespace whirl_twin {
 
-/// A place in a picture [px], x to the right, y downwards.
+/// A point in a picture [px], x to the right, y downwards.
 struct Spot {
   double x = 0.0, y = 0.0;
 };
 
-/// A line with every point that is needed to stay within a fraction of a pixel of the given one.
-/// The ends stay.
+/// The line with only the points needed to stay within a fraction of a pixel of the given one. The
+/// ends are kept.
 std::vector<Spot> thinned(const std::vector<Spot>& line);
 
-/// What is left of a line without the stretches that run over what it has drawn before: a motion
-/// that repeats itself draws the same loop again and again. The line is coarsened, by a pixel at
-/// most, and what counts as the same grows, until at most `most` points are left.
+/// Removes the stretches of a line that repeat what it has drawn before: a periodic motion draws
+/// the same loop again and again. The line is coarsened, by a pixel at most, and the tolerance of
+/// equality grows, until at most `most` points remain.
 std::vector<std::vector<Spot>> withoutRepeats(const std::vector<Spot>& line, std::size_t most);
 
 }  // namespace whirl_twin

@@ -9,10 +9,10 @@
 namespace whirl_twin {
 namespace {
 
-/// Part of a step by which a tick may miss the end of a range: rounding.
+/// Fraction of a step by which a tick may miss the end of a range: rounding.
 constexpr double kSlack = 1.0e-9;
-constexpr double kSmallestSpread = 1.0e-6;  // of the values themselves; labels have seven digits
-constexpr double kRoom = 0.1;               // of a value that does not change, to either side
+constexpr double kSmallestSpread = 1.0e-6;  // relative to the values; labels have seven digits
+constexpr double kRoom = 0.1;               // relative to a constant value, to either side
 
 /// factor x 10^exponent, rounded as the number is written.
 double decimal(double factor, int exponent) {
@@ -30,11 +30,11 @@ AxisRange widened(AxisRange range) {
   if (largest == 0.0) {
     return {-1.0, 1.0};
   }
-  if (range.high - range.low >= std::max(kSmallestSpread * largest, 1.0 / kLargestOnAxis)) {
+  if (range.high - range.low >= std::max(kSmallestSpread * largest, 1.0 / kMaxOnAxis)) {
     return range;
   }
-  const double room = std::max(kRoom * largest, 1.0 / kLargestOnAxis);
-  return {std::max(range.low - room, -kLargestOnAxis), std::min(range.high + room, kLargestOnAxis)};
+  const double room = std::max(kRoom * largest, 1.0 / kMaxOnAxis);
+  return {std::max(range.low - room, -kMaxOnAxis), std::min(range.high + room, kMaxOnAxis)};
 }
 
 std::vector<double> linearTicks(const AxisRange& range, int most) {
@@ -61,7 +61,7 @@ std::vector<double> degreeTicks(const AxisRange& range, int most) {
     const double first = std::floor(range.low / step + kSlack);
     const double last = std::ceil(range.high / step - kSlack);
     if (last - first + 1.0 <= most) {
-      if (last - first < 2.0) {  // too narrow for parts of a turn
+      if (last - first < 2.0) {  // too narrow for fractions of a turn
         break;
       }
       std::vector<double> ticks;

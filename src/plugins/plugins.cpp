@@ -21,7 +21,7 @@ namespace {
 constexpr const char* kPackage = "whirl_twin";
 constexpr const char* kAttribute = "plugin";
 
-/// One line, whatever a loader says.
+/// Joins the text of a loader to one line.
 void warn(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   std::fprintf(stderr, "whirl_twin: %s\n", text.c_str());
@@ -47,7 +47,7 @@ std::vector<std::string> descriptions() {
   return files;
 }
 
-/// What the plugins of a kind say of themselves: a ModelInfo each, or a ControllerInfo.
+/// The descriptions that the plugins of a kind return: a ModelInfo each, or a ControllerInfo.
 template <class Plugin>
 auto infosOf(const char* base_class) {
   using Loader = pluginlib::ClassLoader<Plugin>;
@@ -57,7 +57,7 @@ auto infosOf(const char* base_class) {
     return all;
   }
   try {
-    // Never destroyed, for with it would go the code that the twin steps with.
+    // Never destroyed, because that would unload code that the twin uses.
     static Loader& loader = *new Loader(kPackage, base_class, kAttribute, files);
     for (const std::string& name : loader.getDeclaredClasses()) {
       try {

@@ -4,9 +4,9 @@
 
 namespace whirl_twin {
 
-/// Makes scenes find the models and controllers of plugins beside the built-in ones. Nothing is
-/// searched or loaded before a scene names one that is not built in, or all are listed. What cannot
-/// be loaded costs one line on standard error; the rest is there.
+/// Registers the models and controllers of plugins in addition to the built-in ones. Nothing is
+/// searched or loaded before a scene names one that is not built in, or all are listed. A plugin
+/// that cannot be loaded causes one line on standard error; the others are available.
 void usePlugins();
 
 }  // namespace whirl_twin

@@ -1,7 +1,7 @@
-// Numbers below 2.2e-308 (denormals) cost a processor a hundred cycles and more each; a decaying
-// vibration ends in them. While this object lives, the calling thread rounds them to zero: on
+// Denormal numbers, below 2.2e-308, take a hundred processor cycles and more each; a decaying
+// vibration ends in them. While this object exists, the calling thread rounds them to zero: on
 // x86-64 flush-to-zero and denormals-are-zero of MXCSR (Intel SDM vol. 1, 10.2.3), on arm64 FZ of
-// FPCR (Arm ARM, C5.2.8). Elsewhere it does nothing.
+// FPCR (Arm ARM, C5.2.8). On other processors it has no effect.
 #pragma once
 
 #include <cstdint>

@@ -6,9 +6,9 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kLooks = 8;            // while a ring's worth of records goes by
-constexpr int kCalmLooks = 16;               // after which more is tried: two rings' worth
-constexpr std::int64_t kMostLeftOut = 4096;  // one record of so many tells what goes on
+constexpr std::size_t kLooks = 8;           // polls while a full ring of records passes
+constexpr int kCalmLooks = 16;              // after which a higher rate is tried: two full rings
+constexpr std::int64_t kMaxLeftOut = 4096;  // one record in so many still shows the course
 
 }  // namespace
 
@@ -21,8 +21,8 @@ void EvenThinning::consumed(std::size_t waiting) noexcept {
   since_look_ = 0;
   if (waiting > capacity_ / 2) {
     calm_looks_ = 0;
-    if (waiting >= waiting_before_) {  // what was done before is not enough
-      every_ = std::min(2 * every_, kMostLeftOut);
+    if (waiting >= waiting_before_) {  // the present decimation is not enough
+      every_ = std::min(2 * every_, kMaxLeftOut);
     }
   } else if (waiting > capacity_ / 16) {
     calm_looks_ = 0;

@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "realtime/denormals.h"
 #include "realtime/monotonic_clock.h"
 
@@ -37,30 +37,31 @@ OverrunPolicy parseOverrunPolicy(const std::string& name) {
       return policy;
     }
   }
-  throw Refusal("overrun policy: must be skip, catch_up or stop, found \"" + name + "\"");
+  throw InputError("overrun policy: must be skip, catch_up or stop, found \"" + name + "\"");
 }
 
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;           // [ns]
-constexpr std::int64_t kShortestPeriod = 10'000;          // [ns]
-constexpr std::int64_t kLongestPeriod = 3'600 * kSecond;  // [ns]
-constexpr std::uint64_t kPageFaultsEvery = 64;            // cycles
-constexpr std::int64_t kLongestSleep = kSecond / 20;      // [ns], so that stop() is heard
+constexpr std::int64_t kSecond = 1'000'000'000;       // [ns]
+constexpr std::int64_t kMinPeriod = 10'000;           // [ns]
+constexpr std::int64_t kMaxPeriod = 3'600 * kSecond;  // [ns]
+constexpr std::uint64_t kPageFaultsEvery = 64;        // cycles
+// [ns], bounds the reaction time of stop()
+constexpr std::int64_t kMaxSleep = kSecond / 20;
 
 // The loop whose cycle this thread is running, if any: stop() must not join its own thread.
 thread_local const FixedRateLoop* own_loop = nullptr;
 
 void check(bool in_range, const char* option, const std::string& expected, std::int64_t found) {
   if (!in_range) {
-    throw Refusal(
+    throw InputError(
         fmt::format("fixed-rate loop: {}: expected {}, found {}", option, expected, found));
   }
 }
 
 }  // namespace
 
-// What start() hands to the thread, which moves it into its own frame.
+// Arguments that start() passes to the thread, which moves them into its own frame.
 struct FixedRateLoop::Launch {
   FixedRateLoop* loop;
   RealtimeStatus status;
@@ -68,8 +69,8 @@ struct FixedRateLoop::Launch {
 };
 
 FixedRateLoop::FixedRateLoop(const Options& options) : options_(options) {
-  check(options.period >= kShortestPeriod && options.period <= kLongestPeriod, "period",
-        fmt::format("{} to {} ns", kShortestPeriod, kLongestPeriod), options.period);
+  check(options.period >= kMinPeriod && options.period <= kMaxPeriod, "period",
+        fmt::format("{} to {} ns", kMinPeriod, kMaxPeriod), options.period);
   check(options.priority >= 1 && options.priority <= 98, "priority", "1 to 98", options.priority);
   check(options.cpu >= -1 && options.cpu < CPU_SETSIZE, "cpu",
         fmt::format("-1 (any) to {}", CPU_SETSIZE - 1), options.cpu);
@@ -186,7 +187,7 @@ void FixedRateLoop::run() noexcept {
       WakeUp next =
           nextWakeUp(options_.policy, scheduled, finished, options_.period, options_.max_catch_up);
       if (!go_on) {
-        next.skipped = 0;  // nothing follows, so nothing is left out
+        next.skipped = 0;  // no cycle follows, so none is skipped
       }
       record(scheduled, woke, finished, next);
       if (!next.overrun) {
@@ -207,8 +208,8 @@ void FixedRateLoop::run() noexcept {
   }
 }
 
-// False when the loop was asked to stop. Long sleeps are cut in pieces toward the same instant; of
-// the last stretch nothing is slept.
+// False when a stop of the loop was requested. Long sleeps are divided, with the same absolute end;
+// the last part is a busy wait.
 bool FixedRateLoop::sleepUntil(std::int64_t instant) noexcept {
   for (;;) {
     if (stop_requested_.load(std::memory_order_relaxed)) {
@@ -222,18 +223,19 @@ bool FixedRateLoop::sleepUntil(std::int64_t instant) noexcept {
     if (now >= instant) {
       return true;
     }
-    const std::int64_t until = std::min(instant - options_.busy_wait, now + kLongestSleep);
+    const std::int64_t until = std::min(instant - options_.busy_wait, now + kMaxSleep);
     if (now >= until) {
       continue;
     }
     const timespec wake_up{static_cast<time_t>(until / kSecond), until % kSecond};
-    // It returns EINTR (errno is not set) when a signal cut it short: the next turn sleeps on.
+    // It returns EINTR (errno is not set) when a signal interrupts it: the loop then sleeps again.
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake_up, nullptr);
   }
 }
 
-// The statistics are a sequence lock: odd while they change. All fields are atomic, stored with
-// release and loaded with acquire, so a reader that met a new value also meets a moved count.
+// The statistics are a sequence lock: the count is odd while they change. All fields are atomic,
+// stored with release and loaded with acquire, so a reader that sees a new value also sees a
+// changed count.
 void FixedRateLoop::record(std::int64_t scheduled, std::int64_t woke, std::int64_t finished,
                            const WakeUp& next) noexcept {
   const auto add = [](std::atomic<std::uint64_t>& count, std::uint64_t more) {
@@ -255,7 +257,7 @@ void FixedRateLoop::record(std::int64_t scheduled, std::int64_t woke, std::int64
   add(overruns_, next.overrun ? 1 : 0);
   add(late_wake_ups_, next.overrun && woke - scheduled > finished - woke ? 1 : 0);
   add(skipped_, next.skipped);
-  // A system call: not in every cycle of a loop that has few microseconds.
+  // A system call: not in every cycle, which may be a few microseconds long.
   if (next.overrun || cycles_.load(std::memory_order_relaxed) % kPageFaultsEvery == 0) {
     page_faults_.store(threadPageFaults(), std::memory_order_release);
   }
@@ -291,7 +293,7 @@ LoopTiming FixedRateLoop::timing() const {
         return timing;
       }
     }
-    // The loop was writing: it needs well under a microsecond for that, once a period.
+    // The loop was writing, which takes well under a microsecond, once a period.
     std::this_thread::sleep_for(std::chrono::microseconds(20));
   }
 }

@@ -4,9 +4,9 @@
 //   to that absolute instant (or to Options::busy_wait before it), so a late cycle does not move
 //   the ones after it
 //
-// Measured apart, for every cycle: wake-up latency (woke - due), execution time (of the function),
-// period (woke - woke before). What happens when a cycle ends too late: overrun_policy.h. What the
-// thread asks of Linux: realtime_setup.h. It guarantees no latency: that is the kernel's to give.
+// Measured separately, for every cycle: wake-up latency (actual - scheduled), execution time (of
+// the function), period (between wake-ups). Overruns: OverrunPolicy. System settings that the
+// thread requires: realtime_setup.h. It guarantees no latency: that depends on the kernel.
 #pragma once
 
 #include <pthread.h>
@@ -23,9 +23,9 @@
 
 namespace whirl_twin {
 
-// What a fixed-rate loop does when a cycle ends after the next one should have begun (an overrun).
+// Overrun policy of a fixed-rate loop: a cycle ends after the scheduled start of the next one.
 //
-//   skip       leave out the missed periods and go on at the next instant of the same grid
+//   skip       skip the missed periods and continue at the next instant of the same grid
 //              scheduled + k period: the phase is kept, the simulated time falls behind the clock
 //   catch_up   run the missed cycles back to back, at most max_catch_up of them; older ones are
 //              skipped as above, so the loop is never further behind than that bound
@@ -35,10 +35,10 @@ namespace whirl_twin {
 
 enum class OverrunPolicy { kSkip, kCatchUp, kStop };
 
-/// What follows a cycle.
+/// Schedule after a cycle.
 struct WakeUp {
   std::int64_t next = 0;      ///< [ns], when the next cycle is due; in the past while catching up
-  std::uint64_t skipped = 0;  ///< periods left out between the cycle done and the next
+  std::uint64_t skipped = 0;  ///< periods skipped between the present cycle and the next
   bool overrun = false;       ///< the cycle ended after the next was due
   bool stop = false;          ///< the loop must end
 };
@@ -55,7 +55,7 @@ constexpr WakeUp nextWakeUp(OverrunPolicy policy, std::int64_t scheduled, std::i
   if (policy == OverrunPolicy::kStop) {
     return {due, 0, true, true};
   }
-  // Instants of the grid from `due` on that have passed already, rounded up.
+  // Number of instants of the grid from `due` on that have passed, rounded up.
   const std::uint64_t missed = static_cast<std::uint64_t>((now - due - 1) / period + 1);
   const std::uint64_t run_late = policy == OverrunPolicy::kCatchUp ? max_catch_up : 0;
   const std::uint64_t skipped = missed > run_late ? missed - run_late : 0;
@@ -65,28 +65,27 @@ constexpr WakeUp nextWakeUp(OverrunPolicy policy, std::int64_t scheduled, std::i
 /// "skip", "catch_up" or "stop".
 std::string toString(OverrunPolicy policy);
 
-/// The reverse of toString; Refusal names what was found and what is expected.
+/// The inverse of toString. Throws InputError with the name found and those expected.
 OverrunPolicy parseOverrunPolicy(const std::string& name);
 
-/// How a loop has kept its time. The histograms leave the warm-up cycles out; the counts do not.
+/// Timing statistics of a loop. The histograms exclude the warm-up cycles; the counts do not.
 struct LoopTiming {
-  TimingHistogram wake_up_latency;  ///< [ns], woke - due
+  TimingHistogram wake_up_latency;  ///< [ns], actual minus scheduled wake-up
   TimingHistogram execution_time;   ///< [ns], of the cycle function
   TimingHistogram period;           ///< [ns], from one wake-up to the next
   std::uint64_t cycles = 0;         ///< cycles run since the start or the last reset
   std::uint64_t overruns = 0;       ///< of these, ended after the next one was due
-  std::uint64_t late_wake_ups =
-      0;                      ///< of the overruns, those that woke late for longer than they ran
-  std::uint64_t skipped = 0;  ///< periods left out
-  /// Of the loop's thread since it began, some cycles ago; a reset leaves it.
+  std::uint64_t late_wake_ups = 0;  ///< overruns whose wake-up latency exceeded their run time
+  std::uint64_t skipped = 0;        ///< periods skipped
+  /// Of the loop's thread since it started, as of some cycles ago; not reset.
   std::uint64_t page_faults = 0;
 };
 
 class FixedRateLoop {
  public:
-  /// One cycle. Gets the instant it was due [ns, CLOCK_MONOTONIC]; false ends the loop. It must not
-  /// block, allocate or throw (a throw ends the loop, and status() says so). Of this class it may
-  /// call stop(), running(), timing() and resetTiming().
+  /// One cycle. Its argument is its scheduled start [ns, CLOCK_MONOTONIC]; false ends the loop. It
+  /// must not block, allocate or throw (an exception ends the loop, and status() reports it). Of
+  /// this class it may call stop(), running(), timing() and resetTiming().
   using Cycle = std::function<bool(std::int64_t scheduled)>;
 
   struct Options {
@@ -96,29 +95,28 @@ class FixedRateLoop {
     OverrunPolicy policy = OverrunPolicy::kSkip;
     std::uint64_t max_catch_up = 10;     ///< [cycles], for OverrunPolicy::kCatchUp
     std::size_t stack_size = 1'048'576;  ///< [bytes], of the loop's thread
-    std::uint64_t warm_up_cycles = 10;   ///< left out of the histograms
+    std::uint64_t warm_up_cycles = 10;   ///< excluded from the histograms
     int cpu = -1;                        ///< the processor that the thread keeps to; -1: any
-    std::int64_t give_up = 0;  ///< [ns] of overruns without a break end the loop; 0: never
-    /// [ns], up to half a period: how long before it is due a cycle is waited for awake, where the
-    /// kernel's way out of sleep takes a good part of the period. It costs that much of a
-    /// processor.
+    std::int64_t give_up = 0;  ///< [ns] of continuous overruns after which the loop ends; 0: never
+    /// [ns], up to half a period: duration of busy waiting before a cycle is due, where the
+    /// kernel's wake-up takes a large part of the period. It uses that fraction of a processor.
     std::int64_t busy_wait = 0;
   };
 
-  /// Refusal names an option that is out of range.
+  /// Throws InputError with the name of an option that is out of range.
   explicit FixedRateLoop(const Options& options);
   ~FixedRateLoop();
   FixedRateLoop(const FixedRateLoop&) = delete;
   FixedRateLoop& operator=(const FixedRateLoop&) = delete;
 
-  /// Locks memory, starts the thread, waits until it has its scheduling, and returns; the first
-  /// cycle is due one period later. RunFailure when the thread cannot be had as
-  /// RealtimeMode::kEnforce demands (nothing runs then), std::logic_error when it runs already. A
-  /// loop that has ended can be started again; its timing begins anew.
+  /// Locks memory, starts the thread, waits until its scheduling is set, and returns; the first
+  /// cycle is due one period later. Throws RunFailure when the thread cannot be started as
+  /// RealtimeMode::kEnforce requires (nothing runs then), std::logic_error when it already runs. A
+  /// loop that has ended can be started again; its timing restarts.
   void start(Cycle cycle);
 
-  /// Ends the loop after the cycle under way and joins the thread: within 50 ms plus that cycle.
-  /// From inside a cycle it only asks for the end.
+  /// Ends the loop after the current cycle and joins the thread: within 50 ms plus that cycle. From
+  /// inside a cycle it only requests the end.
   void stop() noexcept;
 
   bool running() const noexcept { return running_.load(std::memory_order_acquire); }
@@ -126,14 +124,14 @@ class FixedRateLoop {
   /// The loop has ended because it overran for as long as Options::give_up.
   bool gaveUp() const noexcept { return gave_up_.load(std::memory_order_acquire); }
 
-  /// What was obtained from the system at the last start.
+  /// The settings obtained from the system at the last start.
   RealtimeStatus status() const;
 
-  /// A coherent copy of the statistics; the loop is not disturbed. Any thread.
+  /// A consistent copy of the statistics, without effect on the loop. Any thread.
   LoopTiming timing() const;
 
-  /// Forgets the statistics (all but page_faults), before the next cycle and within 50 ms plus the
-  /// cycle under way.
+  /// Resets the statistics (all but page_faults), before the next cycle and within 50 ms plus the
+  /// current cycle.
   void resetTiming() noexcept;
 
  private:
@@ -153,8 +151,8 @@ class FixedRateLoop {
   bool joinable_ = false;
   RealtimeStatus status_;
   std::string
-      failure_;  // what a cycle threw: written by the loop's thread before running_ is false
-  mutable std::mutex control_mutex_;  // start, stop and status; the loop never takes it
+      failure_;  // the exception of a cycle: written by the loop's thread before running_ is false
+  mutable std::mutex control_mutex_;  // start, stop and status; never locked by the loop
   std::atomic<bool> running_{false};
   std::atomic<bool> stop_requested_{false};
   std::atomic<bool> reset_requested_{false};

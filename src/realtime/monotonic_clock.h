@@ -1,4 +1,4 @@
-// The clock of the loop: it only goes forward, and nobody sets it.
+// The clock of the loop: monotonic, unaffected by adjustments of the wall clock.
 #pragma once
 
 #include <time.h>

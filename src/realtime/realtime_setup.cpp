@@ -19,12 +19,12 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace {
 
-// What was asked for and not obtained: an error where it is demanded, else a warning.
+// A requested setting was not obtained: an error in mode kEnforce, else a warning.
 void notObtained(RealtimeMode mode, const std::string& what, RealtimeStatus& status) {
   if (mode == RealtimeMode::kEnforce) {
     throw RunFailure("realtime enforce: " + what);
@@ -42,7 +42,7 @@ bool hasCapability(unsigned capability) {
   return (data[CAP_TO_INDEX(capability)].effective & CAP_TO_MASK(capability)) != 0;
 }
 
-// Memory of the process that the kernel says is locked, the line VmLck of proc(5) [KiB].
+// Locked memory of the process, the line VmLck of proc(5) [KiB].
 long lockedKibibytes() {
   std::ifstream status("/proc/self/status");
   std::string word;
@@ -94,7 +94,7 @@ RealtimeMode parseRealtimeMode(const std::string& name) {
       return mode;
     }
   }
-  throw Refusal("realtime: must be enforce, warn or ignore, found \"" + name + "\"");
+  throw InputError("realtime: must be enforce, warn or ignore, found \"" + name + "\"");
 }
 
 void lockMemory(RealtimeMode mode, RealtimeStatus& status) {
@@ -112,10 +112,10 @@ void lockMemory(RealtimeMode mode, RealtimeStatus& status) {
                 status);
     return;
   }
-  // The order of the man page of mlockall for real-time: first the heap that exists, then keep what
-  // malloc holds instead of giving it back, and take large blocks from the heap, not from mmap.
-  // What is allocated later is locked page by page when it is written: the length that a client of
-  // a port announces (ROS allocates it at once) takes no memory before so much arrives.
+  // The order of the man page of mlockall for real-time: lock the existing heap first, then prevent
+  // malloc from returning memory, and take large blocks from the heap, not from mmap. Later
+  // allocations are locked page by page on the first write: a message length announced by a client
+  // of a port (ROS allocates it at once) uses no memory before so much data arrives.
   if (mlockall(MCL_CURRENT) != 0 || mlockall(MCL_FUTURE | MCL_ONFAULT) != 0) {
     notObtained(mode, fmt::format("memory is not locked: mlockall: {}", std::strerror(errno)),
                 status);
@@ -131,7 +131,7 @@ void lockMemory(RealtimeMode mode, RealtimeStatus& status) {
 
 void touchMemory() {
   constexpr std::size_t kStack = 256 * 1024;  // bytes
-  constexpr std::size_t kBlock = 64 * 1024;   // bytes, that malloc takes from the heap, not by mmap
+  constexpr std::size_t kBlock = 64 * 1024;   // bytes, allocated by malloc on the heap, not by mmap
   constexpr std::size_t kBlocks = 24;
   std::array<char, kStack> stack;  // NOLINT: written next
   explicit_bzero(stack.data(), kStack);
@@ -204,7 +204,7 @@ ProcessorAwake::ProcessorAwake(RealtimeMode mode, RealtimeStatus& status) {
     return;
   }
   constexpr const char* kFile = "/dev/cpu_dma_latency";
-  const std::int32_t longest_wake_up = 0;  // [us]; the kernel holds to it while the file is open
+  const std::int32_t longest_wake_up = 0;  // [us]; the kernel applies it while the file is open
   file_ = open(kFile, O_WRONLY | O_CLOEXEC);
   if (file_ < 0 || write(file_, &longest_wake_up, sizeof longest_wake_up) < 0) {
     status.warnings.push_back(

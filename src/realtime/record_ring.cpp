@@ -37,7 +37,7 @@ RecordRing::~RecordRing() = default;
 
 bool RecordRing::push(const double* record) noexcept {
   if (values_->write_available() < record_size_) {
-    // Only this thread writes the count; an atomic store keeps readers of it honest.
+    // Only this thread writes the count; the atomic store prevents data races with readers.
     dropped_.store(dropped() + 1, std::memory_order_relaxed);
     return false;
   }

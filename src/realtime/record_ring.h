@@ -1,11 +1,11 @@
-// The way out of the real-time loop: a ring of records, each a fixed number of doubles, from one
+// Output of the real-time loop: a ring buffer of records, each a fixed number of doubles, from one
 // producer thread to one consumer thread, wait-free on both sides. When the consumer is behind,
 // the newest record is dropped and counted; the producer never waits.
 //
 // Built on boost::lockfree::spsc_queue<double>, whose push(pointer, n) copies what fits and then
-// publishes it with one store of the write index. The room for a whole record is checked first, and
-// it can only grow meanwhile (only the producer fills it), so a record is never split; the same
-// holds for pop the other way round.
+// publishes it with one store of the write index. The space for a whole record is checked first,
+// and it can only grow meanwhile (only the producer fills it), so a record is never split; the
+// converse holds for pop.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 namespace whirl_twin {
 
 // The newest of a series of records, from one producer thread to one consumer thread, wait-free on
-// both sides: what the consumer has not taken in time is replaced, never waited for. Three rooms
-// (triple buffering): one is written, one is read, and one is between, exchanged in one operation.
+// both sides: a record that was not read in time is replaced. Triple buffering: one buffer is
+// written, one is read, and one is between, exchanged in one atomic operation.
 
 class LatestRecord {
  public:
@@ -33,14 +33,14 @@ class LatestRecord {
 
   // Real-time safe.
 
-  /// Producer: where the next record is written.
+  /// Producer: the buffer of the next record.
   double* room() noexcept { return rooms_[written_].data(); }
-  /// Producer: room() is the newest record from now on.
+  /// Producer: room() becomes the newest record.
   void publish() noexcept {
     written_ = between_.exchange(written_ | kFresh, std::memory_order_acq_rel) & ~kFresh;
   }
 
-  /// Consumer: copies the newest record out; false if it has been taken.
+  /// Consumer: copies the newest record out; false if it was already read.
   bool take(double* record) noexcept {
     if ((between_.load(std::memory_order_relaxed) & kFresh) == 0) {
       return false;
@@ -51,7 +51,7 @@ class LatestRecord {
   }
 
  private:
-  static constexpr unsigned kFresh = 4;  // beside the number of a room
+  static constexpr unsigned kFresh = 4;  // flag bit beside the buffer index
 
   std::array<std::vector<double>, 3> rooms_;
   unsigned written_ = 0;
@@ -67,28 +67,28 @@ class RecordRing {
   RecordRing(const RecordRing&) = delete;
   RecordRing& operator=(const RecordRing&) = delete;
 
-  /// Producer: copies recordSize() doubles in; false, and counted, when there is no room for them.
-  /// Real-time safe.
+  /// Producer: copies recordSize() doubles in; false, and counted, if the ring is full. Real-time
+  /// safe.
   bool push(const double* record) noexcept;
 
-  /// Producer: is there room for so many records? Real-time safe.
+  /// Producer: is there space for so many records? Real-time safe.
   bool hasRoomFor(std::size_t records) const noexcept;
 
   /// Consumer: copies the oldest record out; false when there is none. Real-time safe.
   bool pop(double* record) noexcept;
 
-  /// Consumer: records that wait for it.
+  /// Consumer: number of waiting records.
   std::size_t waiting() const noexcept;
 
   std::size_t capacity() const noexcept { return capacity_; }
 
-  /// Records that found no room. Any thread.
+  /// Records dropped because the ring was full. Any thread.
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
   std::size_t recordSize() const noexcept { return record_size_; }
 
  private:
-  struct Values;  ///< the queue: its headers are long, and these are read with every controller
+  struct Values;  ///< the queue: its headers are large, and every controller includes this file
 
   std::size_t record_size_;
   std::size_t capacity_;

@@ -1,13 +1,13 @@
-// The state of what steps as bytes: taken from it, or put back into another that was made alike. A
-// class goes through what changes in it once, for both ways,
+// Serialization of a stepping object's state to bytes, and restoration into another object made
+// with the same parameters. A class lists its variable members once, for both directions,
 //
 //   void exchange(StateImage& image) noexcept { image(state_, errors_, method_); }
 //
-// so that what is put back is what was taken. What is plain, which owns nothing and refers to
-// nothing, goes as a whole, and no member of it can be forgotten. Real-time safe.
+// so that the restored members are the saved ones. A trivially copyable object without pointers is
+// copied as a whole, so no part of it can be omitted. Real-time safe.
 //
-// A file may say anything: after exchange() a class requires of what was put back what it never
-// violates itself, above all that places lie within what they are places of.
+// A file may contain anything: after exchange() a class checks its own invariants on the restored
+// values, above all that indices are in range.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace whirl_twin {
 
 class StateImage;
 
-/// Goes through its members itself.
+/// Detects a class with its own exchange().
 template <class Part, class = void>
 struct Exchanges : std::false_type {};
 template <class Part>
@@ -29,7 +29,7 @@ struct Exchanges<Part,
                  std::void_t<decltype(std::declval<Part&>().exchange(std::declval<StateImage&>()))>>
     : std::true_type {};
 
-/// Of Eigen: its numbers may lie elsewhere.
+/// Detects Eigen types, whose numbers may be on the heap.
 template <class Part, class = void>
 struct IsMatrix : std::false_type {};
 template <class Part>
@@ -37,27 +37,27 @@ struct IsMatrix<Part, std::void_t<typename Part::Scalar>> : std::true_type {};
 
 class StateImage {
  public:
-  /// Takes a state. What finds no room is counted, so that without any it tells the size().
+  /// Saves a state. Bytes beyond `size` are only counted, so size 0 yields the required size().
   static StateImage taking(char* room, std::size_t size) noexcept { return {room, nullptr, size}; }
-  /// Puts one back. Where it is of something made otherwise it is not sound(), and what was put
-  /// back of it means nothing.
+  /// Restores a state. If the image is of an object made differently, it is not sound(), and the
+  /// restored values are meaningless.
   static StateImage putting(const char* image, std::size_t size) noexcept {
     return {nullptr, image, size};
   }
 
   bool puts() const noexcept { return from_ != nullptr; }
   std::size_t size() const noexcept { return done_; }  ///< [bytes], so far
-  /// Taken: it had room, and everything in it can be taken. Put back: it was all there.
+  /// Saved: it fitted, and everything in it can be saved. Restored: it was complete.
   bool sound() const noexcept { return sound_ && done_ <= size_; }
-  /// Something of unknown insides is in it.
+  /// Marks the image as not sound(): it contains an object of unknown structure.
   void refuse() noexcept { sound_ = false; }
-  /// Of what was put back: it holds, or the image is not sound(). False: it does not, and the
-  /// caller must not use it.
+  /// Check of a restored value: if `holds` is false, the image is not sound(), the result is false,
+  /// and the caller must not use the value.
   bool require(bool holds) noexcept {
     sound_ = sound_ && (holds || !puts());
     return holds || !puts();
   }
-  /// The same of a number that is to be from `least` to `most`, which it is made to be.
+  /// The same for a number, which must be from `least` to `most`, and is set to `least` otherwise.
   template <class Number>
   void requireWithin(Number& number, Number least, Number most) noexcept {
     if (!require(number >= least && number <= most)) {
@@ -109,7 +109,7 @@ class StateImage {
     }
   }
 
-  /// With their number before them, by which another layout is known.
+  /// Preceded by their number, which detects a different layout.
   void bytes(void* data, std::uint64_t count) noexcept {
     if (from_ == nullptr) {
       take(&count, sizeof count);

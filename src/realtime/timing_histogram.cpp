@@ -6,8 +6,8 @@
 namespace whirl_twin {
 namespace {
 
-// Release and acquire on every field are what makes FixedRateLoop's sequence count sound: a reader
-// that saw any of the new values also sees that the count has moved on. On x86-64 they are free.
+// Release and acquire on every field make FixedRateLoop's sequence count valid: a reader that saw
+// any of the new values also sees the incremented count. On x86-64 they cost nothing.
 template <class T>
 T get(const std::atomic<T>& field) noexcept {
   return field.load(std::memory_order_acquire);
@@ -38,7 +38,7 @@ TimingHistogram& TimingHistogram::operator=(const TimingHistogram& other) noexce
 void TimingHistogram::add(std::int64_t duration) noexcept {
   duration = std::max<std::int64_t>(duration, 0);
   std::atomic<std::uint64_t>& bucket = buckets_[bucketOf(duration)];
-  // One writer, so a load and a store will do where several would need an atomic addition.
+  // One writer, so a load and a store suffice where several would need an atomic addition.
   set(bucket, get(bucket) + 1);
   const std::uint64_t before = get(count_);
   if (before == 0 || duration < get(min_)) {
@@ -99,9 +99,8 @@ std::int64_t TimingHistogram::percentile(double percent) const noexcept {
   return max();
 }
 
-// The first two octaves' worth, 0 to 2 kPerOctave - 1, are their own bucket numbers. Above,
-// shifting the duration until it lies in kPerOctave .. 2 kPerOctave - 1 leaves its place in its
-// octave.
+// Durations of 0 to 2 kPerOctave - 1 are their own bucket numbers. Above, the duration is shifted
+// into kPerOctave .. 2 kPerOctave - 1, which gives its position within its octave.
 std::size_t TimingHistogram::bucketOf(std::int64_t duration) noexcept {
   if (duration >= kOverflow) {
     return kBuckets;

@@ -1,11 +1,12 @@
-// A histogram of durations with fixed buckets: what a real-time loop can keep of its latencies
-// without allocating. Up to 64 ns a bucket is 1 ns wide; above, every octave has 32 buckets, so a
-// percentile is off by at most 1/32 of itself, from nanoseconds to 2^34 ns = 17 s. Longer durations
-// go into an overflow bin. (The log-linear layout is that of HdrHistogram, hdrhistogram.org.)
+// A histogram of durations with fixed buckets, for the latencies of a real-time loop without
+// allocation. Up to 64 ns a bucket is 1 ns wide; above, every octave has 32 buckets, so a
+// percentile has a relative error of at most 1/32, from nanoseconds to 2^34 ns = 17 s. Longer
+// durations go into an overflow bin. (The log-linear layout is that of HdrHistogram,
+// hdrhistogram.org.)
 //
-// One thread adds and resets; any thread may copy meanwhile, without a lock: all fields are atomic.
-// A copy taken in the middle of an add may lack that sample in some fields; FixedRateLoop guards
-// its histograms with a sequence count, so that its copies are whole.
+// One thread adds and resets; any thread may copy at the same time, without a lock: all fields are
+// atomic. A copy taken in the middle of an add may lack that sample in some fields; FixedRateLoop
+// guards its histograms with a sequence count, so that its copies are consistent.
 #pragma once
 
 #include <array>
@@ -27,7 +28,7 @@ class TimingHistogram {
   /// Counts one duration [ns]; a negative one counts as 0. Real-time safe.
   void add(std::int64_t duration) noexcept;
 
-  /// Forgets everything. Real-time safe.
+  /// Resets the histogram. Real-time safe.
   void reset() noexcept;
 
   std::uint64_t count() const noexcept;     ///< samples, the overflow bin's included

@@ -10,7 +10,7 @@
 
 #include "accuracy/trajectory.h"
 #include "analysis/stability.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reports/output.h"
 #include "reports/step_cost.h"
 #include "scene/control_parts.h"
@@ -45,7 +45,7 @@ constexpr double kComplexRoots = 8.5e-10;  // s, for their cube
 constexpr std::size_t kFewMembers = 4;  // of an ensemble, made to see what they cost
 constexpr double kDearMember = 0.2;     // s, of which none is made for that
 
-std::atomic<bool> told{false};
+std::atomic<bool> announced{false};
 
 double square(double n) {
   return n * n;
@@ -147,7 +147,7 @@ AskedCost costOfRun(const BuiltScene& scene) {
 }
 
 AskedCost costOfAnalysis(const std::string& system, int coordinates, std::size_t modes) {
-  if (coordinates > kMostCompleteCoordinates && modes < static_cast<std::size_t>(coordinates)) {
+  if (coordinates > kMaxCompleteCoordinates && modes < static_cast<std::size_t>(coordinates)) {
     AskedCost cost = bySize(system, coordinates, 0.0);
     cost.seconds = kLowestModesOf * coordinates;
     return cost;
@@ -169,7 +169,7 @@ AskedCost costOfRoots(std::size_t coefficients, bool real) {
           fmt::format("{} coefficients", coefficients)};
 }
 
-std::string inWords(double seconds) {
+std::string durationText(double seconds) {
   if (seconds < 2.0 * kMinute) {
     return fmt::format("{:.0f} s", seconds);
   }
@@ -184,24 +184,27 @@ std::string inWords(double seconds) {
 }
 
 bool isTold() {
-  return told.load();
+  return announced.load();
 }
 
 void tell(const AskedCost& cost, bool insist) {
   const double free = freeMemory();
   if (!insist && cost.seconds > kDay) {
-    throw Refusal(fmt::format("{}: takes about {}; reduce it, or run it with --insist", cost.cause,
-                              inWords(cost.seconds)));
+    throw InputError(fmt::format(
+        "{}: takes about {}, more than the limit of one day: reduce this number, or start "
+        "with --insist",
+        cost.cause, durationText(cost.seconds)));
   }
   if (!insist && cost.memory > free) {
-    throw Refusal(fmt::format(
+    throw InputError(fmt::format(
         "{}: takes about {:.0f} GB of memory, and {:.0f} GB are free; reduce it, or run it with "
         "--insist",
         cost.cause, 1.0e-9 * cost.memory, 1.0e-9 * free));
   }
   if (cost.seconds > kLong) {
-    told.store(true);
-    complain(fmt::format("twin: {}: this takes about {}\n", cost.cause, inWords(cost.seconds)));
+    announced.store(true);
+    complain(
+        fmt::format("twin: {}: this takes about {}\n", cost.cause, durationText(cost.seconds)));
   }
 }
 

@@ -1,4 +1,4 @@
-// What a command is asked for costs, told before it is paid: from the sizes of the request and
+// Cost of a command, announced before it runs: from the sizes of the request and
 // coefficients measured on one machine, to a factor of three or so. What takes more than ten
 // seconds is announced; what takes more than a day, or more memory than there is, is refused,
 // unless it is insisted on.
@@ -30,7 +30,7 @@ AskedCost costOfMembers(const BuiltScene& scene, std::size_t system);
 /// All that a run of the scene prepares.
 AskedCost costOfRun(const BuiltScene& scene);
 
-/// What looks at eigenvalues and responses of a system of so many coordinates.
+/// Of eigenvalues and responses of a system with so many coordinates.
 AskedCost costOfAnalysis(const std::string& system, int coordinates,
                          std::size_t modes = kLowestModes);
 AskedCost costOfCampbell(const std::string& system, int coordinates, int points);
@@ -42,12 +42,12 @@ AskedCost costOfRoots(std::size_t coefficients, bool real);
 double processorTime();
 
 /// A time in words: "40 s", "7 min", "11 h", "3 days", "12 years".
-std::string inWords(double seconds);
+std::string durationText(double seconds);
 
-/// Says on standard error what takes more than ten seconds. Throws Refusal, with the cause, for
+/// Says on standard error what takes more than ten seconds. Throws InputError, with the cause, for
 /// what takes more than a day or more memory than is free, unless `insist`.
 void tell(const AskedCost& cost, bool insist);
-/// Something that takes long has been told of.
+/// A long run has been announced.
 bool isTold();
 
 }  // namespace whirl_twin

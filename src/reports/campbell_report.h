@@ -20,11 +20,11 @@ struct CampbellReport {
   std::vector<UndampedCriticalSpeed> undamped;  ///< within the range
   std::vector<CriticalSpeed> peaks;             ///< of the unbalance response, within the range
   /// Crossings and undamped critical speeds in the range that a reduced rotor's equations have
-  /// beyond the speed it holds to: left out.
+  /// above the speed up to which it is valid: left out.
   std::size_t beyond = 0;
 };
 
-/// `progress` is told how many speeds of the diagram are done.
+/// `progress` gets the number of speeds that are done.
 CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range,
                               const std::vector<double>& harmonics, std::size_t branches,
                               const std::function<void(std::size_t)>& progress = {});

@@ -7,16 +7,15 @@
 #include <cmath>
 
 #include "algebra/constants.h"
-#include "messages/refusal.h"
-#include "reports/matrix_json.h"
+#include "messages/input_error.h"
+#include "reports/report_values.h"
 #include "reports/rotor_outline.h"
-#include "reports/table_speeds.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kLeastShare = 0.1;  // of the stiffest: less is a seal
+constexpr double kMinShare = 0.1;  // of the stiffest: less is a seal
 constexpr int kSpeeds = 41;
 constexpr double kStiffest = 1.0e18;  // N/m
 constexpr double kUsual = 1.0e8;      // N/m, where all bearings are rigid
@@ -61,12 +60,12 @@ void chooseBearings(const FlexibleShaft& shaft, const std::vector<int>& asked, d
   }
   for (const int node : asked) {
     if (std::find(all.begin(), all.end(), node) == all.end()) {
-      throw Refusal(fmt::format("--bearing: expected nodes with bearings, {}; found {}",
-                                fmt::join(all, ", "), node));
+      throw InputError(fmt::format("--bearing: expected nodes with bearings, {}; found {}",
+                                   fmt::join(all, ", "), node));
     }
   }
   for (const int node : all) {
-    const bool varied = asked.empty() ? direct(node) > kLeastShare * stiffest
+    const bool varied = asked.empty() ? direct(node) > kMinShare * stiffest
                                       : std::find(asked.begin(), asked.end(), node) != asked.end();
     if (varied) {
       r.bearings.push_back({node, {}, {}});
@@ -94,7 +93,7 @@ std::pair<double, double> rangeOf(const CriticalMapRequest& request, const Criti
     least = most = kUsual;
   }
   if (!(most > 0.0)) {
-    throw Refusal(
+    throw InputError(
         "critical speed map: the bearings must support the rotor (kxx or kyy > 0), found none");
   }
   const double to =
@@ -102,25 +101,17 @@ std::pair<double, double> rangeOf(const CriticalMapRequest& request, const Criti
   const double from = request.from.value_or(std::pow(
       10.0, std::floor(std::log10(std::min(std::max(least, 1e-3 * most), 1e-3 * kStiffest))) - 1));
   if (!(from > 0.0 && from < to && to <= kStiffest)) {
-    throw Refusal(fmt::format(
+    throw InputError(fmt::format(
         "--from, --to: must be stiffnesses > 0 with --from < --to, found {:g} and {:g} N/m", from,
         to));
   }
   return {from, to};
 }
 
-/// Of a curve over the speeds the part that the tables cover.
-Series withinTables(const CriticalMapReport& r, Series curve) {
-  for (std::size_t i = 0; i < curve.y.size(); ++i) {
-    curve.y[i] = r.system->tables().covers(curve.y[i]) ? curve.y[i] : kNaN;
-  }
-  return curve;
-}
-
-/// The other part.
-Series beyondTables(const CriticalMapReport& r, Series curve) {
-  for (std::size_t i = 0; i < curve.y.size(); ++i) {
-    curve.y[i] = r.system->tables().covers(curve.y[i]) ? kNaN : curve.y[i];
+/// Of a curve over the speeds the part that the tables cover, or the other part.
+Series partOf(const CriticalMapReport& r, bool within_tables, Series curve) {
+  for (double& speed : curve.y) {
+    speed = r.system->tables().covers(speed) == within_tables ? speed : kNaN;
   }
   return curve;
 }
@@ -129,14 +120,14 @@ Series beyondTables(const CriticalMapReport& r, Series curve) {
 
 CriticalMapReport criticalMapReport(const RotorSystem& system, const CriticalMapRequest& request) {
   if (!system.shaft) {
-    throw Refusal(fmt::format("{}: must be a flexible_rotor, the only model with bearings to vary",
-                              system.title()));
+    throw InputError(fmt::format(
+        "{}: must be a flexible_rotor, the only model with bearings to vary", system.title()));
   }
   if (request.points < 2 || request.points > 1000) {
-    throw Refusal(fmt::format("--points: expected from 2 to 1000, found {}", request.points));
+    throw InputError(fmt::format("--points: expected from 2 to 1000, found {}", request.points));
   }
   if (request.modes < 1 || request.modes > 50) {
-    throw Refusal(fmt::format("--modes: expected from 1 to 50, found {}", request.modes));
+    throw InputError(fmt::format("--modes: expected from 1 to 50, found {}", request.modes));
   }
   CriticalMapReport r;
   r.system = &system;
@@ -165,26 +156,23 @@ CriticalMapReport criticalMapReport(const RotorSystem& system, const CriticalMap
 }
 
 Json json(const CriticalMapReport& r) {
-  Json json;
-  json["model"] = r.system->model;
-  json["running_speeds"] = {r.system->lowest_speed, r.system->highest_speed};
-  json["stiffness"] = arrayJson(r.map.stiffness);
-  json["critical_speeds"] = Json::array();
-  for (const std::vector<double>& mode : r.map.speeds) {
-    json["critical_speeds"].push_back(arrayJson(mode));
-  }
-  json["on_rigid_bearings"] = arrayJson(r.map.rigid);
-  json["speeds"] = arrayJson(r.speeds);
-  json["table_speeds"] = tableSpeedsJson(r.system->tables());  // null: every speed
-  json["beyond_tables"] = beyondJson(r.system->tables(), r.speeds);
-  json["bearings"] = Json::array();
-  for (const BearingOnMap& bearing : r.bearings) {
-    json["bearings"].push_back(
-        {{"node", bearing.node}, {"kxx", arrayJson(bearing.kxx)}, {"kyy", arrayJson(bearing.kyy)}});
-  }
-  json["left_out"] = r.left_out;
-  json["pedestals_left_out"] = r.pedestals;
-  return json;
+  return {{"model", r.system->model},
+          {"running_speeds", {r.system->lowest_speed, r.system->highest_speed}},
+          {"stiffness", arrayJson(r.map.stiffness)},
+          {"critical_speeds",
+           listJson(r.map.speeds, [](const std::vector<double>& mode) { return arrayJson(mode); })},
+          {"on_rigid_bearings", arrayJson(r.map.rigid)},
+          {"speeds", arrayJson(r.speeds)},
+          {"table_speeds", tableSpeedsJson(r.system->tables())},  // null: every speed
+          {"beyond_tables", beyondJson(r.system->tables(), r.speeds)},
+          {"bearings", listJson(r.bearings,
+                                [](const BearingOnMap& bearing) -> Json {
+                                  return {{"node", bearing.node},
+                                          {"kxx", arrayJson(bearing.kxx)},
+                                          {"kyy", arrayJson(bearing.kyy)}};
+                                })},
+          {"left_out", r.left_out},
+          {"pedestals_left_out", r.pedestals}};
 }
 
 CsvTables tables(const CriticalMapReport& r) {
@@ -218,18 +206,13 @@ std::string text(const CriticalMapReport& r) {
   for (std::size_t mode = 0; mode < r.map.speeds.size(); ++mode) {
     out += fmt::format(" {:>11}", fmt::format("mode {}", mode + 1));
   }
+  const auto cell = [](double speed) { return fmt::format(" {:>11.6g}", speed); };
   const std::size_t stride = std::max<std::size_t>(1, (r.map.stiffness.size() - 1) / (kRows - 1));
   for (std::size_t i = 0; i < r.map.stiffness.size(); i += stride) {
     out += fmt::format("\n    {:>14.5g}", r.map.stiffness[i]);
-    for (const std::vector<double>& mode : r.map.speeds) {
-      out += fmt::format(" {:>11.6g}", mode[i]);
-    }
+    out += joined(r.map.speeds, [&](const std::vector<double>& mode) { return cell(mode[i]); });
   }
-  out += "\n             rigid";
-  for (const double speed : r.map.rigid) {
-    out += fmt::format(" {:>11.6g}", speed);
-  }
-  out += "\n";
+  out += "\n             rigid" + joined(r.map.rigid, cell) + "\n";
   for (const BearingOnMap& bearing : r.bearings) {
     if (bearing.rigid()) {
       out += fmt::format("    bearing at node {:<4} rigid\n", bearing.node);
@@ -268,15 +251,17 @@ Figure figure(const CriticalMapReport& r) {
     if (bearing.rigid()) {
       continue;
     }
-    chart.series.push_back(withinTables(r, {first ? "kxx of the bearings over the speed" : "",
-                                            bearing.kxx, r.speeds, Pen{ink::kVermilion, 1.8}}));
-    chart.series.push_back(withinTables(
-        r, {first ? "kyy" : "", bearing.kyy, r.speeds, Pen{ink::kGreen, 1.8, {6.0, 3.0}}}));
-    chart.series.push_back(beyondTables(
-        r, {first && !beyondLine(r.system->tables(), r.speeds.front(), r.speeds.back()).empty()
-                ? beyondName(r.system->tables())
-                : "",
-            bearing.kxx, r.speeds, Pen{ink::kBlack, 1.2, {2.0, 4.0}}}));
+    chart.series.push_back(partOf(r, true,
+                                  {first ? "kxx of the bearings over the speed" : "", bearing.kxx,
+                                   r.speeds, Pen{ink::kVermilion, 1.8}}));
+    chart.series.push_back(partOf(
+        r, true, {first ? "kyy" : "", bearing.kyy, r.speeds, Pen{ink::kGreen, 1.8, {6.0, 3.0}}}));
+    chart.series.push_back(
+        partOf(r, false,
+               {first && !beyondLine(r.system->tables(), r.speeds.front(), r.speeds.back()).empty()
+                    ? beyondName(r.system->tables())
+                    : "",
+                bearing.kxx, r.speeds, Pen{ink::kBlack, 1.2, {2.0, 4.0}}}));
     chart.notes.push_back(
         {bearing.kxx.back(), r.speeds.back(), fmt::format("node {}", bearing.node)});
     first = false;

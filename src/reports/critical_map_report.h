@@ -30,7 +30,7 @@ struct CriticalMapReport {
   bool pedestals = false;              ///< it has some, which the map does not
 };
 
-/// What of the rotor is asked for.
+/// Options of `twin map`.
 struct CriticalMapRequest {
   std::optional<double> from, to;  ///< [N/m]; none: two decades beyond the bearings' own
   int points = 61;
@@ -39,7 +39,7 @@ struct CriticalMapRequest {
 };
 
 /// A node is left out by itself whose direct stiffness at the drive's highest speed is below a
-/// tenth of the stiffest: a seal, which does not carry the rotor. Throws Refusal for what is no
+/// tenth of the stiffest: a seal, which does not carry the rotor. Throws InputError for what is no
 /// flexible_rotor, and for a node without a bearing.
 CriticalMapReport criticalMapReport(const RotorSystem& system, const CriticalMapRequest& request);
 

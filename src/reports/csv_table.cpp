@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "messages/csv_cell.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
+#include "reports/output.h"
 
 namespace whirl_twin {
 
@@ -28,6 +26,26 @@ std::string cellText(const Json& row, const std::string& column) {
     return cell.dump();
   }
   return csvCell(cell.get<std::string>());
+}
+
+/// FILE.csv, of a table with a name FILE_NAME.csv.
+std::string csvName(const std::string& path, const std::string& table) {
+  if (table.empty()) {
+    return path;
+  }
+  std::filesystem::path name = path;
+  name.replace_filename(fmt::format("{}_{}.csv", name.stem().string(), table));
+  return name.string();
+}
+
+std::string csvText(const CsvTable& table) {
+  std::string out = joined(table.columns, csvCell, ",") + "\n";
+  for (const Json& row : table.rows) {
+    out += joined(
+        table.columns, [&](const std::string& column) { return cellText(row, column); }, ",");
+    out += "\n";
+  }
+  return out;
 }
 
 }  // namespace
@@ -49,47 +67,39 @@ void append(CsvTables& all, const std::string& system, const CsvTables& more) {
 
 void requireCsvName(const std::optional<std::string>& path) {
   if (path && std::filesystem::path(*path).extension() != ".csv") {
-    throw Refusal(fmt::format("--csv: expected a name that ends in .csv, found '{}'", *path));
+    throw InputError(fmt::format("--csv: expected a name that ends in .csv, found '{}'", *path));
   }
-}
-
-std::string csvName(const std::string& path, const std::string& table) {
-  if (table.empty()) {
-    return path;
-  }
-  std::filesystem::path name = path;
-  name.replace_filename(fmt::format("{}_{}.csv", name.stem().string(), table));
-  return name.string();
-}
-
-std::string csvText(const CsvTable& table) {
-  std::string out;
-  for (const std::string& column : table.columns) {
-    out += (out.empty() ? "" : ",") + csvCell(column);
-  }
-  out += "\n";
-  for (const Json& row : table.rows) {
-    std::string line;
-    for (const std::string& column : table.columns) {
-      line += (&column == &table.columns.front() ? "" : ",") + cellText(row, column);
-    }
-    out += line + "\n";
-  }
-  return out;
 }
 
 void writeCsv(const std::string& path, const CsvTables& tables) {
   for (const CsvTable& table : tables) {
-    const std::string name = csvName(path, table.name);
-    PendingFile pending(name);
-    std::ofstream file(pending.path(), std::ios::binary);
-    file << csvText(table);
-    file.close();
-    if (!file) {
-      throw RunFailure(fmt::format("{}: cannot be written: {}", name, std::strerror(errno)));
-    }
-    pending.complete();
+    writeFile(csvName(path, table.name), csvText(table));
   }
+}
+
+void requirePictureName(const std::optional<std::string>& path) {
+  if (!path) {
+    return;
+  }
+  const std::string extension = std::filesystem::path(*path).extension().string();
+  if (extension != ".svg" && extension != ".png") {
+    throw InputError(
+        fmt::format("--plot: expected a name that ends in .svg or .png, found '{}'", *path));
+  }
+}
+
+std::string pictureName(const std::string& path, const std::string& system, bool several) {
+  if (!several) {
+    return path;
+  }
+  std::filesystem::path name = path;
+  name.replace_filename(
+      fmt::format("{}_{}{}", name.stem().string(), system, name.extension().string()));
+  return name.string();
+}
+
+void writePicture(const std::string& path, const Figure& figure) {
+  writeFile(path, figureImage(figure, imageFormat(path)));
 }
 
 }  // namespace whirl_twin

@@ -1,10 +1,12 @@
-// Tables of a report as comma-separated values (RFC 4180): --csv FILE.csv of a command.
+// Files that a command writes beside its report: tables of comma-separated values (RFC 4180), --csv
+// FILE.csv; a picture, --plot FILE.svg or FILE.png.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "plots/chart.h"
 #include "reports/output.h"
 
 namespace whirl_twin {
@@ -21,15 +23,19 @@ using CsvTables = std::vector<CsvTable>;
 /// The rows of one system's tables go below those of the others, with the system before them.
 void append(CsvTables& all, const std::string& system, const CsvTables& more);
 
-/// Throws Refusal unless the name ends in .csv, before anything is computed.
+/// Throws InputError unless the name ends in .csv, before anything is computed.
 void requireCsvName(const std::optional<std::string>& path);
-
-/// Where a table of a command goes: FILE.csv, of one with a name FILE_NAME.csv.
-std::string csvName(const std::string& path, const std::string& table);
-
-std::string csvText(const CsvTable& table);
 
 /// Writes them all. Throws RunFailure. Files appear only when they are complete.
 void writeCsv(const std::string& path, const CsvTables& tables);
+
+/// Throws InputError unless the name ends in .svg or .png, before anything is computed.
+void requirePictureName(const std::optional<std::string>& path);
+
+/// FILE.svg of one system of several: FILE_SYSTEM.svg.
+std::string pictureName(const std::string& path, const std::string& system, bool several);
+
+/// Throws RunFailure. The file appears only when it is complete.
+void writePicture(const std::string& path, const Figure& figure);
 
 }  // namespace whirl_twin

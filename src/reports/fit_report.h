@@ -25,8 +25,4 @@ Figure figure(const FitStudy& study, const ShootingFit& fit, std::size_t run);
 /// of tables count from `folder`, where it is to be.
 std::string fittedScene(const FitStudy& study, const ShootingFit& fit, const std::string& folder);
 
-/// "theta1 and mass2 can change together, by 1 and -0.5 of their values" of a direction that runs
-/// do not tell.
-std::string directionText(const ShootingFit& fit, const UntoldDirection& direction);
-
 }  // namespace whirl_twin

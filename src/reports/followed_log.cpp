@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "estimation/follower.h"
+#include "estimation/state_estimator.h"
 #include "twin/observer.h"
 
 namespace whirl_twin {
@@ -16,52 +16,44 @@ namespace {
 /// The largest factor of a run-up that white residuals reach in one of twenty.
 constexpr double kNotWhite = 2.0;
 
-/// What a follower tells of one system, put together.
-class Course {
- public:
-  explicit Course(FollowedSystem& system) : system_(system) {}
-
-  void take(const state::FollowState& told) {
-    if (!std::isnan(told.mismatch) && told.mismatch != system_.last.mismatch) {
-      ++system_.windows;
-      system_.mismatched += told.mismatch > told.mismatch_limit ||
-                            told.mismatch < told.mismatch_least ||
-                            std::fabs(told.whiteness) > told.whiteness_limit;
-    }
-    if (!told.drift_parameter.empty() && system_.drift_parameter.empty()) {
-      system_.drift_parameter = told.drift_parameter;
-      system_.drift_from = told.drift_from;
-      system_.drift_to = told.drift_to;
-      system_.drift_since = told.drift_since;
-      system_.drift_told = told.at.time;
-    }
-    system_.found = system_.found || told.used > 0;
-    system_.last = told;
+/// Adds what a state estimator publishes of a system.
+void add(const state::FollowState& now, EstimatorSystem& system) {
+  if (!std::isnan(now.mismatch) && now.mismatch != system.last.mismatch) {
+    ++system.windows;
+    system.mismatched += now.mismatch > now.mismatch_limit || now.mismatch < now.mismatch_least ||
+                         std::fabs(now.whiteness) > now.whiteness_limit;
   }
-
-  /// factors: of all that the filter has learned (Follower::deviationFactors()).
-  void finish(const SystemFilter& filter, const Eigen::VectorXd& factors) {
-    for (const FollowedParameter& p : filter.model().parameters()) {
-      system_.factor.push_back(factors[static_cast<Eigen::Index>(system_.factor.size())]);
-      system_.start.push_back(p.start);
-    }
-    for (const FollowedChannel& c : filter.channels()) {
-      system_.is_input.push_back(c.input.has_value());
-    }
-    const std::vector<Station>& stations = filter.unbalanceStations();
-    for (std::size_t i = 0; i < stations.size(); ++i) {
-      const Eigen::Vector2d u = filter.unbalance(i);
-      const Eigen::Vector2d variance = filter.unbalanceCovariance(i).diagonal();
-      const auto k = static_cast<Eigen::Index>(system_.start.size() + 2 * i);
-      const double wider = variance.dot(factors.segment<2>(k).cwiseAbs2()) / variance.sum();
-      system_.unbalances.push_back({stations[i].name, u.norm(), std::atan2(u.y(), u.x()),
-                                    std::sqrt(0.5 * variance.sum() * wider), std::sqrt(wider)});
-    }
+  if (!now.drift_parameter.empty() && system.drift_parameter.empty()) {
+    system.drift_parameter = now.drift_parameter;
+    system.drift_from = now.drift_from;
+    system.drift_to = now.drift_to;
+    system.drift_since = now.drift_since;
+    system.drift_told = now.at.time;
   }
+  system.found = system.found || now.used > 0;
+  system.last = now;
+}
 
- private:
-  FollowedSystem& system_;
-};
+/// Adds the results of its filter; factors: StateEstimator::deviationFactors().
+void add(const ExtendedKalmanFilter& filter, const Eigen::VectorXd& factors,
+         EstimatorSystem& system) {
+  for (const EstimatorParameter& p : filter.model().parameters()) {
+    system.factor.push_back(factors[static_cast<Eigen::Index>(system.factor.size())]);
+    system.start.push_back(p.start);
+  }
+  for (const EstimatorChannel& c : filter.channels()) {
+    system.is_input.push_back(c.input.has_value());
+  }
+  const std::vector<Station>& stations = filter.unbalanceStations();
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const Eigen::Vector2d u = filter.unbalance(i);
+    const Eigen::Vector2d variance = filter.unbalanceCovariance(i).diagonal();
+    const auto k = static_cast<Eigen::Index>(system.start.size() + 2 * i);
+    const double wider = variance.dot(factors.segment<2>(k).cwiseAbs2()) / variance.sum();
+    system.unbalances.push_back({stations[i].name, u.norm(), std::atan2(u.y(), u.x()),
+                                 std::sqrt(0.5 * variance.sum() * wider), std::sqrt(wider)});
+  }
+}
 
 std::string plusMinus(double value, double deviation) {
   return std::isfinite(deviation) ? fmt::format("{:.6g} +- {:.2g}", value, deviation)
@@ -69,7 +61,7 @@ std::string plusMinus(double value, double deviation) {
 }
 
 /// Of all deviations, the largest.
-double deviationFactor(const FollowedSystem& system) {
+double deviationFactor(const EstimatorSystem& system) {
   double factor = 1.0;
   for (const double f : system.factor) {
     factor = std::max(factor, f);
@@ -80,7 +72,7 @@ double deviationFactor(const FollowedSystem& system) {
   return factor;
 }
 
-std::string followedSystemText(const FollowedSystem& system) {
+std::string followedSystemText(const EstimatorSystem& system) {
   std::string out = fmt::format("{}\n", system.name);
   if (!system.found) {
     return out + "  its motion was not estimated: no sample of it, or no shaft angle\n";
@@ -93,7 +85,7 @@ std::string followedSystemText(const FollowedSystem& system) {
   for (const FoundUnbalance& u : system.unbalances) {
     out +=
         fmt::format("  unbalance {:<14} {} kg m at {:.2f} deg of the shaft, added to the scene's\n",
-                    u.station, plusMinus(u.amount, u.deviation), u.angle * 57.29577951308232);
+                    u.station, plusMinus(u.amount, u.deviation), u.angle / kDegree);
   }
   const double factor = deviationFactor(system);
   if (factor > 1.0) {
@@ -145,9 +137,11 @@ FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const st
   run.log = log;
   const auto generations = std::make_shared<SystemGenerations>(twin);
   Observer observer(twin, generations);
-  std::vector<std::unique_ptr<Course>> courses(twin.systems().size());
-  std::vector<FollowedSystem> systems(twin.systems().size());
-  FollowerListener listener;
+  std::vector<EstimatorSystem> systems(twin.systems().size());
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    systems[i].name = twin.systems()[i]->spec.name;
+  }
+  EstimatorListener listener;
   listener.record = [&](const double* record) {
     observer.observe(record);
     run.duration = observer.instant().time - twin.seconds(0);
@@ -156,23 +150,19 @@ FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const st
       writer->write(observer);
     }
   };
-  listener.follow = [&](const state::FollowState& told) {
-    for (std::size_t i = 0; i < systems.size(); ++i) {
-      if (twin.systems()[i]->spec.name == told.system) {
-        courses[i]->take(told);
+  listener.follow = [&](const state::FollowState& now) {
+    for (EstimatorSystem& system : systems) {
+      if (system.name == now.system) {
+        add(now, system);
       }
     }
     if (writer != nullptr) {
-      writer->write(told);
+      writer->write(now);
     }
   };
-  Follower follower(twin, generations, settings, every, listener);
-  for (std::size_t i = 0; i < systems.size(); ++i) {
-    systems[i].name = twin.systems()[i]->spec.name;
-    courses[i] = std::make_unique<Course>(systems[i]);
-  }
+  StateEstimator follower(twin, generations, settings, every, listener);
   run.file = readMeasurements(
-      log, run.scene, followedSources(twin.scene(), settings), prefix,
+      log, run.scene, estimatorSources(twin.scene(), settings), prefix,
       [&](const state::Measurement& measurement) {
         if (writer != nullptr) {
           writer->write(measurement);
@@ -183,8 +173,8 @@ FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const st
   follower.finish();
   run.restarts = follower.restarts();
   for (std::size_t i = 0; i < systems.size(); ++i) {
-    if (const SystemFilter* filter = follower.filter(i)) {
-      courses[i]->finish(*filter, follower.deviationFactors(i));
+    if (const ExtendedKalmanFilter* filter = follower.filter(i)) {
+      add(*filter, follower.deviationFactors(i), systems[i]);
       systems[i].rms = follower.residualRms(i);
       run.systems.push_back(systems[i]);
     }
@@ -201,16 +191,11 @@ std::string text(const FollowedLog& run) {
   if (!run.file.first_damage.empty()) {
     out += "  first corruption: " + run.file.first_damage + "\n";
   }
-  for (const std::string& remark : run.file.remarks) {
-    out += "  " + remark + "\n";
-  }
+  out += joined(run.file.remarks, [](const auto& remark) { return "  " + remark + "\n"; });
   if (run.restarts > 0) {
     out += fmt::format("The estimator was re-initialized {} times.\n", run.restarts);
   }
-  for (const FollowedSystem& system : run.systems) {
-    out += followedSystemText(system);
-  }
-  return out;
+  return out + joined(run.systems, followedSystemText);
 }
 
 Json json(const FollowedLog& run) {
@@ -224,7 +209,7 @@ Json json(const FollowedLog& run) {
               {"remarks", run.file.remarks},
               {"restarts", run.restarts},
               {"systems", Json::object()}};
-  for (const FollowedSystem& s : run.systems) {
+  for (const EstimatorSystem& s : run.systems) {
     Json system = {
         {"found", s.found}, {"parameters", Json::object()}, {"channels", Json::object()}};
     for (std::size_t i = 0; i < s.last.parameter.size(); ++i) {

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "algebra/constants.h"
 #include "estimation/follow_settings.h"
 #include "messages/follow_state.h"
 #include "reports/measured_file.h"
@@ -26,23 +26,23 @@ struct FoundUnbalance {
   double factor = 1.0;     ///< of it: over that of white residuals
 };
 
-struct FollowedSystem {
+struct EstimatorSystem {
   std::string name;
   bool found = false;          ///< its motion was found
-  state::FollowState last;     ///< as told at the end
+  state::FollowState last;     ///< the last one published
   std::vector<double> factor;  ///< of each parameter's deviation: over that of white residuals
-  std::vector<double> start;   ///< of its parameters, as the scene says
+  std::vector<double> start;   ///< of its parameters, in the scene
   std::vector<double> rms;     ///< of each channel: of the residuals [its unit]; NaN: none
   std::vector<bool> is_input;  ///< of each channel: it shows what acts
   std::vector<FoundUnbalance> unbalances;
-  std::uint64_t windows = 0;     ///< that were judged
+  std::uint64_t windows = 0;     ///< of residuals that were tested
   std::uint64_t mismatched = 0;  ///< of them: too large, too small, or not white
-  // The first drift of a parameter that was told; "": none.
+  // The first drift of a parameter that was detected; "": none.
   std::string drift_parameter;
-  double drift_from = std::numeric_limits<double>::quiet_NaN();
-  double drift_to = std::numeric_limits<double>::quiet_NaN();
-  double drift_since = std::numeric_limits<double>::quiet_NaN();  ///< [s]
-  double drift_told = std::numeric_limits<double>::quiet_NaN();   ///< [s]
+  double drift_from = kNaN;
+  double drift_to = kNaN;
+  double drift_since = kNaN;  ///< [s]
+  double drift_told = kNaN;   ///< [s]
 };
 
 struct FollowedLog {
@@ -50,7 +50,7 @@ struct FollowedLog {
   double duration = 0.0;  ///< [s]
   MeasuredFile file;
   std::int64_t restarts = 0;
-  std::vector<FollowedSystem> systems;
+  std::vector<EstimatorSystem> systems;
 };
 
 /// Follows the measurements of a log, on channels that begin with `prefix`, or of a table. writer

@@ -1,15 +1,14 @@
-#include "reports/forced_report.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "algebra/constants.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "reports/modes_report.h"
+#include "reports/report_values.h"
+#include "reports/response_report.h"
 
 namespace whirl_twin {
 
@@ -17,25 +16,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kHighestFrequency = 1.0e6;  // rad/s
-constexpr int kMostSweepPoints = 10'000;
-
-std::size_t namedStation(const RotorSystem& system, const char* option, const std::string& name) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < system.stations.size(); ++i) {
-    names.push_back(system.stations[i].name);
-    if (names.back() == name) {
-      return i;
-    }
-  }
-  throw Refusal(
-      fmt::format("{}: no station '{}' on {}{}", option, name, system.title(), hint(name, names)));
-}
+constexpr double kMaxFrequency = 1.0e6;  // rad/s
+constexpr int kMaxSweepPoints = 10'000;
 
 double within(const char* option, double value) {
-  if (!(value >= 0.0 && value <= kHighestFrequency)) {
-    throw Refusal(fmt::format("{}: expected from 0 to {:g} rad/s, found {:g}", option,
-                              kHighestFrequency, value));
+  if (!(value >= 0.0 && value <= kMaxFrequency)) {
+    throw InputError(
+        fmt::format("{}: expected from 0 to {:g} rad/s, found {:g}", option, kMaxFrequency, value));
   }
   return value;
 }
@@ -44,10 +31,6 @@ double within(const char* option, double value) {
 Complex along(const ForcedReport& r, const ForcedResponse& response, std::size_t station) {
   const Orbit& orbit = response.orbits[station];
   return r.request.along == "x" ? orbit.x : orbit.y;
-}
-
-Json phasor(const Complex& z) {
-  return {z.real(), z.imag()};
 }
 
 /// Frequencies at which the receptance is largest, places in the sweep.
@@ -68,16 +51,16 @@ ForcedReport forcedReport(const RotorSystem& system, const ForcedRequest& reques
   ForcedReport r;
   r.system = &system;
   r.request = request;
-  const std::size_t force = namedStation(system, "--force", request.force);
+  const std::size_t force = system.stationNamed("--force", request.force);
   if (request.along != "x" && request.along != "y") {
-    throw Refusal(fmt::format("--along: expected x or y, found '{}'", request.along));
+    throw InputError(fmt::format("--along: expected x or y, found '{}'", request.along));
   }
-  if (request.points < 2 || request.points > kMostSweepPoints) {
-    throw Refusal(
-        fmt::format("--points: expected from 2 to {}, found {}", kMostSweepPoints, request.points));
+  if (request.points < 2 || request.points > kMaxSweepPoints) {
+    throw InputError(
+        fmt::format("--points: expected from 2 to {}, found {}", kMaxSweepPoints, request.points));
   }
   for (const std::string& name : request.at) {
-    r.stations.push_back(namedStation(system, "--at", name));
+    r.stations.push_back(system.stationNamed("--at", name));
   }
   if (r.stations.empty()) {
     r.stations = {force};
@@ -91,14 +74,14 @@ ForcedReport forcedReport(const RotorSystem& system, const ForcedRequest& reques
       modes.empty()
           ? std::max(2.0 * r.speed, 100.0)
           : kBeyondLastMode * modes[std::min(modes.size(), kModesOfInterest) - 1].dampedFrequency();
-  const double to = within("--to", request.to.value_or(std::min(usual, kHighestFrequency)));
+  const double to = within("--to", request.to.value_or(std::min(usual, kMaxFrequency)));
   if (!(from < to)) {
-    throw Refusal(
+    throw InputError(
         fmt::format("--from, --to: --from must be < --to, found {:g} and {:g} rad/s", from, to));
   }
-  const WholeRotor whole = wholeRotor(system, force);
-  const Station& place = whole.stations[force];
-  r.sweep = forcedResponse(whole.rotor, whole.stations, r.speed,
+  const FullOrderModel full = fullOrderModel(system, force);
+  const Station& place = full.stations[force];
+  r.sweep = forcedResponse(full.rotor, full.stations, r.speed,
                            request.along == "x" ? place.along_x : place.along_y,
                            frequenciesAround(modes, from, to, request.points));
   return r;
@@ -109,24 +92,18 @@ Json json(const ForcedReport& r) {
             {"speed", r.speed},
             {"force", {{"station", r.request.force}, {"along", r.request.along}}},
             {"grows", r.grows}};
-  json["frequencies"] = Json::array();
-  for (const ForcedResponse& response : r.sweep) {
-    json["frequencies"].push_back(response.frequency);
-  }
+  json["frequencies"] =
+      listJson(r.sweep, [](const ForcedResponse& response) { return response.frequency; });
   for (const std::size_t i : r.stations) {
     Json& station = json["stations"][r.system->stations[i].name];
-    for (const char* kind : {"receptance", "mobility"}) {
-      for (const char* axis : {"x", "y"}) {
-        station[kind][axis] = Json::array();
+    for (const bool mobility : {false, true}) {
+      for (const bool x : {true, false}) {
+        station[mobility ? "mobility" : "receptance"][x ? "x" : "y"] =
+            listJson(r.sweep, [&](const ForcedResponse& response) {
+              const Complex z = x ? response.orbits[i].x : response.orbits[i].y;
+              return complexJson(mobility ? Complex(0.0, response.frequency) * z : z);
+            });
       }
-    }
-    for (const ForcedResponse& response : r.sweep) {
-      const Orbit& orbit = response.orbits[i];
-      const Complex rate(0.0, response.frequency);
-      station["receptance"]["x"].push_back(phasor(orbit.x));
-      station["receptance"]["y"].push_back(phasor(orbit.y));
-      station["mobility"]["x"].push_back(phasor(rate * orbit.x));
-      station["mobility"]["y"].push_back(phasor(rate * orbit.y));
     }
   }
   return json;
@@ -189,12 +166,12 @@ Figure figure(const ForcedReport& r) {
   phase.y.label = "lag of the displacement (deg)";
   receptance.y.logarithmic = mobility.y.logarithmic = true;
   phase.y.degrees = true;
-  const std::size_t shown = std::min(r.stations.size(), kMostStationsDrawn);
+  const std::size_t shown = std::min(r.stations.size(), kMaxStationsDrawn);
   for (std::size_t s = 0; s < shown; ++s) {
     const std::size_t i = r.stations[s];
     Series amplitude{r.system->stations[i].name, {}, {}};
     Series rate, lag;
-    double before = std::numeric_limits<double>::quiet_NaN();
+    double before = kNaN;
     for (const ForcedResponse& response : r.sweep) {
       const Complex x = along(r, response, i);
       amplitude.x.push_back(response.frequency);
@@ -205,7 +182,7 @@ Figure figure(const ForcedReport& r) {
       now = now < -90.0 ? now + 360.0 : now;
       if (std::fabs(now - before) > 180.0) {  // from one end of the axis to the other
         lag.x.push_back(response.frequency);
-        lag.y.push_back(std::numeric_limits<double>::quiet_NaN());
+        lag.y.push_back(kNaN);
       }
       lag.x.push_back(response.frequency);
       lag.y.push_back(now);

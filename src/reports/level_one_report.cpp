@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "algebra/constants.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "reports/critical_map_report.h"
+#include "reports/report_values.h"
 #include "reports/rotor_outline.h"
-#include "reports/table_speeds.h"
 
 namespace whirl_twin {
 
@@ -19,9 +19,9 @@ namespace {
 
 constexpr int kRows = 25;
 constexpr double kBeyondMargins = 1.25;  // of Q_0 or Q_A, the larger
-constexpr double kLeastRatio = 2.0;      // Q_0 / Q_A
+constexpr double kMinRatio = 2.0;        // Q_0 / Q_A
 constexpr double kSureRatio = 10.0;      // likewise: beyond it the gas does not matter
-constexpr double kLeastDecrement = 0.1;  // at Q_A
+constexpr double kMinDecrement = 0.1;    // at Q_A
 
 /// [m], the middle between the outermost bearings, or of all stations.
 double middleBetweenBearings(const RotorSystem& system) {
@@ -41,40 +41,41 @@ double middleBetweenBearings(const RotorSystem& system) {
   return 0.5 * (*first + *last);
 }
 
-std::size_t stationOrMiddle(const RotorSystem& system, const std::optional<std::string>& asked) {
-  std::vector<std::string> names;
+std::size_t stationOrMiddle(const RotorSystem& system, const std::optional<std::string>& name) {
+  if (name) {
+    return system.stationNamed("--at", *name);
+  }
   const double middle = middleBetweenBearings(system);
-  std::size_t nearest = 0;
-  for (std::size_t i = 0; i < system.stations.size(); ++i) {
-    names.push_back(system.stations[i].name);
-    if (asked == names.back()) {
-      return i;
-    }
-    const auto away = [&](std::size_t k) {
-      return std::fabs(system.stations[k].position - middle);
-    };
-    nearest = away(i) < away(nearest) ? i : nearest;
-  }
-  if (asked) {
-    throw Refusal(
-        fmt::format("--at: no station '{}' on {}{}", *asked, system.title(), hint(*asked, names)));
-  }
-  return nearest;
+  const auto away = [&](const Station& station) { return std::fabs(station.position - middle); };
+  const auto nearest =
+      std::min_element(system.stations.begin(), system.stations.end(),
+                       [&](const Station& a, const Station& b) { return away(a) < away(b); });
+  return static_cast<std::size_t>(nearest - system.stations.begin());
 }
 
 void requireNumbers(const LevelOneReport& r) {
   if (!(r.speed > 0.0 && r.speed <= 1.0e6)) {
-    throw Refusal(fmt::format(
+    throw InputError(fmt::format(
         "--speed: expected a shaft speed above 0 and up to 1e+06 rad/s, found {:g}", r.speed));
   }
   for (const Stage& stage : r.request.stages) {
     if (!(stage.power > 0.0 && stage.diameter > 0.0 && stage.width > 0.0 &&
           stage.density_ratio > 0.0 && std::isfinite(alfordCrossCoupling(stage, r.speed)))) {
-      throw Refusal(
+      throw InputError(
           "--stage: must be a power (W), a diameter (m), a width (m) and, for a centrifugal stage, "
           "a density ratio, each > 0");
     }
   }
+}
+
+CsvTable rowsTable(const LevelOneReport& r) {
+  return {"",
+          {"cross_coupling", "log_decrement", "frequency"},
+          listJson(r.rows, [](const CrossCouplingRow& row) -> Json {
+            return {{"cross_coupling", row.cross_coupling},
+                    {"log_decrement", row.mode.logDecrement() + 0.0},
+                    {"frequency", row.mode.dampedFrequency()}};
+          })};
 }
 
 }  // namespace
@@ -84,12 +85,12 @@ std::vector<std::string> LevelOneReport::reasons() const {
   if (!applied) {
     return all;
   }
-  if (margin && *margin < kLeastRatio * *applied) {
-    all.push_back(fmt::format("Q_0/Q_A = {:.3g} is below {:g}", *margin / *applied, kLeastRatio));
+  if (margin && *margin < kMinRatio * *applied) {
+    all.push_back(fmt::format("Q_0/Q_A = {:.3g} is below {:g}", *margin / *applied, kMinRatio));
   }
-  if (at_applied && at_applied->mode.logDecrement() < kLeastDecrement) {
+  if (at_applied && at_applied->mode.logDecrement() < kMinDecrement) {
     all.push_back(fmt::format("the log. decrement at Q_A, {:.3g}, is below {:g}",
-                              at_applied->mode.logDecrement(), kLeastDecrement));
+                              at_applied->mode.logDecrement(), kMinDecrement));
   }
   return all;
 }
@@ -106,8 +107,8 @@ LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& 
   requireNumbers(r);
   const std::size_t station = stationOrMiddle(system, request.at);
   r.station = system.stations[station].name;
-  const WholeRotor whole = wholeRotor(system, station);
-  r.margin = crossCouplingMargin(whole.rotor, whole.stations, station, r.speed);
+  const FullOrderModel full = fullOrderModel(system, station);
+  r.margin = crossCouplingMargin(full.rotor, full.stations, station, r.speed);
   for (const Stage& stage : request.stages) {
     r.expected.push_back(alfordCrossCoupling(stage, r.speed));
     r.applied = r.applied.value_or(0.0) + r.expected.back();
@@ -115,28 +116,27 @@ LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& 
   const double widest = std::max(r.margin.value_or(0.0), r.applied.value_or(0.0));
   const double last = widest > 0.0
                           ? kBeyondMargins * widest
-                          : 0.1 * whole.rotor.matrices(r.speed).stiffness.cwiseAbs().maxCoeff();
+                          : 0.1 * full.rotor.matrices(r.speed).stiffness.cwiseAbs().maxCoeff();
   std::vector<double> couplings;
   for (int i = 0; i < kRows; ++i) {
     couplings.push_back(last * i / (kRows - 1));
   }
-  r.rows = slowestForwardMode(whole.rotor, whole.stations, station, r.speed, couplings);
+  r.rows = slowestForwardMode(full.rotor, full.stations, station, r.speed, couplings);
   if (r.rows.empty()) {
-    throw Refusal(fmt::format(
+    throw InputError(fmt::format(
         "{}: expected a rotor with a forward whirl (damping ratio up to 0.7) at {:g} rad/s, found "
         "none with cross-coupled stiffnesses up to {:.4g} N/m",
         system.title(), r.speed, last));
   }
   if (r.applied) {
-    const auto rows =
-        slowestForwardMode(whole.rotor, whole.stations, station, r.speed, {*r.applied});
+    const auto rows = slowestForwardMode(full.rotor, full.stations, station, r.speed, {*r.applied});
     r.at_applied = rows.empty() ? std::nullopt : std::optional(rows.front());
   }
   if (system.shaft) {
     try {
       const CriticalMapReport map = criticalMapReport(system, {});
       r.critical_speed_ratio = r.speed / map.map.rigid.front();
-    } catch (const Refusal&) {
+    } catch (const InputError&) {
       r.critical_speed_ratio.reset();  // one bearing, or none: there are no rigid ones either
     }
   }
@@ -144,14 +144,11 @@ LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& 
 }
 
 Json json(const LevelOneReport& r) {
-  const auto number = [](const std::optional<double>& value) {
-    return value ? Json(*value) : Json();
-  };
   Json json{{"model", r.system->model},
             {"speed", r.speed},
             {"station", r.station},
-            {"beyond_tables", !r.system->tables().covers(r.speed)}};
-  json["stages"] = Json::array();
+            {"beyond_tables", !r.system->tables().covers(r.speed)},
+            {"stages", Json::array()}};
   for (std::size_t i = 0; i < r.expected.size(); ++i) {
     const Stage& stage = r.request.stages[i];
     json["stages"].push_back({{"kind", stage.axial ? "axial" : "centrifugal"},
@@ -161,32 +158,22 @@ Json json(const LevelOneReport& r) {
                               {"density_ratio", stage.density_ratio},
                               {"cross_coupling", r.expected[i]}});
   }
-  json["expected_cross_coupling"] = number(r.applied);
-  json["threshold_cross_coupling"] = number(r.margin);
-  json["cross_coupling"] = Json::array();
-  json["log_decrement"] = Json::array();
-  json["frequency"] = Json::array();
-  for (const CrossCouplingRow& row : r.rows) {
-    json["cross_coupling"].push_back(row.cross_coupling);
-    json["log_decrement"].push_back(row.mode.logDecrement() + 0.0);
-    json["frequency"].push_back(row.mode.dampedFrequency());
+  json["expected_cross_coupling"] = r.applied;
+  json["threshold_cross_coupling"] = r.margin;
+  const CsvTable rows = rowsTable(r);
+  for (const std::string& key : rows.columns) {
+    json[key] = listJson(rows.rows, [&](const Json& row) { return row[key]; });
   }
   json["forward_whirl_without_cross_coupling"] = r.whirlsUncoupled();
   json["log_decrement_expected"] =
       r.at_applied ? Json(r.at_applied->mode.logDecrement() + 0.0) : Json();
-  json["critical_speed_ratio"] = number(r.critical_speed_ratio);
+  json["critical_speed_ratio"] = r.critical_speed_ratio;
   json["level_two"] = r.reasons();
   return json;
 }
 
 CsvTables tables(const LevelOneReport& r) {
-  CsvTable rows{"", {"cross_coupling", "log_decrement", "frequency"}};
-  for (const CrossCouplingRow& row : r.rows) {
-    rows.rows.push_back({{"cross_coupling", row.cross_coupling},
-                         {"log_decrement", row.mode.logDecrement() + 0.0},
-                         {"frequency", row.mode.dampedFrequency()}});
-  }
-  return {rows,
+  return {rowsTable(r),
           {"stages",
            {"kind", "power", "diameter", "width", "density_ratio", "cross_coupling"},
            json(r)["stages"]}};
@@ -234,7 +221,7 @@ std::string text(const LevelOneReport& r) {
   }
   out += fmt::format(
       "  API 617 requires level II where Q_0/Q_A < {:g} or the log. decrement at Q_A < {:g}\n",
-      kLeastRatio, kLeastDecrement);
+      kMinRatio, kMinDecrement);
   const std::vector<std::string> reasons = r.reasons();
   out += reasons.empty() ? std::string("    neither applies\n")
                          : fmt::format("    it applies: {}\n", fmt::join(reasons, "; "));
@@ -263,7 +250,7 @@ Figure figure(const LevelOneReport& r) {
   chart.horizontal.push_back({0.0, ""});
   if (r.applied) {
     chart.vertical.push_back({*r.applied, "Q_A"});
-    chart.horizontal.push_back({kLeastDecrement, "0.1"});
+    chart.horizontal.push_back({kMinDecrement, "0.1"});
   }
   if (r.margin) {
     chart.vertical.push_back({*r.margin, "Q_0"});

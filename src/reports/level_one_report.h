@@ -35,12 +35,12 @@ struct LevelOneReport {
 
   /// Something whirls forward without cross-coupling; else all that does is damped too much.
   bool whirlsUncoupled() const;
-  /// What asks for a level II analysis, in words; empty: nothing that is judged here.
+  /// Why a level II analysis is required; empty: none of the criteria evaluated here requires it.
   std::vector<std::string> reasons() const;
 };
 
-/// Of the whole rotor, however few coordinates it is stepped with. Throws Refusal for a station
-/// that is not there, numbers out of range, and a rotor without a forward mode.
+/// Of the full-order model, also where the simulation uses a reduced one. Throws InputError for a
+/// station that is not there, numbers out of range, and a rotor without a forward mode.
 LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& request);
 
 Json json(const LevelOneReport& report);

@@ -1,11 +1,14 @@
-// Lines that are drawn again and again in the same place of a terminal; into a file or a pipe they
-// go one below another.
+// What a terminal shows of live messages: lines that are drawn again and again in the same place
+// (into a file or a pipe they go one below another), and the fields of a message as text and JSON.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
 #include <string>
 #include <vector>
+
+#include "messages/message.h"
+#include "reports/output.h"
 
 namespace whirl_twin {
 
@@ -32,5 +35,12 @@ class LiveLines {
   bool on_terminal_;
   std::size_t shown_ = 0;
 };
+
+/// "speed 104.72 rad/s, x 1.2e-05 m, ...", in the order of the .msg file, without its time and whom
+/// it is about.
+std::string messageText(const Message& message);
+
+/// By name, with step, time [s], stamp [ns] and whom it is about.
+Json messageJson(const Message& message);
 
 }  // namespace whirl_twin

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "algebra/constants.h"
-#include "messages/refusal.h"
-#include "reports/verdict_text.h"
+#include "messages/input_error.h"
+#include "reports/report_values.h"
 #include "scene/closed_loop.h"
 
 namespace whirl_twin {
@@ -21,7 +22,7 @@ constexpr double kNothing = 1e-12;  // of a place or an output, in its unit
 std::vector<double> measuredIn(const ControllerSpec& controller, const HeldMotions& motions) {
   std::vector<double> values;
   for (const SignalSpec& signal : controller.measures) {
-    const HeldMotion& motion = motions.at(signal.system);
+    const ClosedLoopEquilibrium& motion = motions.at(signal.system);
     const SignalRow row = rowOf(signal, *motion.dynamics);
     values.push_back(row.along.dot(row.of_rates ? motion.v : motion.q));
   }
@@ -29,8 +30,8 @@ std::vector<double> measuredIn(const ControllerSpec& controller, const HeldMotio
 }
 
 /// The controllers of a loop, in its order.
-std::vector<LoopedController> judged(const Scene& scene, const ClosedLoop& loop,
-                                     std::optional<double> speed) {
+std::vector<LoopedController> loopedControllers(const Scene& scene, const ClosedLoop& loop,
+                                                std::optional<double> speed) {
   LoopedController all;
   for (const std::size_t i : loop.controllers()) {
     all.loop.push_back(scene.controllers[i].name);
@@ -133,10 +134,10 @@ Json loopedControllerJson(const LoopedController& controller) {
     return json;
   }
   const SampledStability& stability = *controller.stability;
-  json["verdict"] = name(stability.verdict);
-  json["exact"] = stability.exact;
-  json["spectral_radius"] = stability.spectral_radius;
-  json["period"] = controller.period;
+  json.update({{"verdict", name(stability.verdict)},
+               {"exact", stability.exact},
+               {"spectral_radius", stability.spectral_radius},
+               {"period", controller.period}});
   if (!controller.held_measured.empty()) {
     json["held"] = {{"measured", byName(controller.spec->measured, controller.held_measured)},
                     {"outputs", byName(controller.spec->acted_on, controller.held_outputs)}};
@@ -150,10 +151,7 @@ Json loopedControllerJson(const LoopedController& controller) {
     json["axes"] = placesJson(controller.spec->measured, controller.margins);
     json["plant_inputs"] = placesJson(controller.spec->acted_on, controller.at_outputs);
   }
-  json["eigenvalues"] = Json::array();
-  for (const std::complex<double>& z : stability.eigenvalues) {
-    json["eigenvalues"].push_back({z.real(), z.imag()});
-  }
+  json["eigenvalues"] = listJson(stability.eigenvalues, complexJson);
   return json;
 }
 
@@ -218,6 +216,103 @@ std::string loopedControllerText(const LoopedController& controller) {
   return out;
 }
 
+using Complex = std::complex<double>;
+
+constexpr int kPoints = 1600;
+constexpr double kDecadesOfFrequency = 5.0;  // below the highest frequency
+constexpr double kNyquistReach = 3.0;  // of the Nyquist diagram: what is farther is not near -1
+constexpr double kMaxSensitivity = 12.0;
+constexpr double kLowestGain = 1.0e-6;  // of the highest; half the rate of the samples has none
+
+struct Zone {
+  const char* name;
+  double low, high;
+  Ink ink;
+};
+
+const std::array<Zone, 4> kZones{{{"zone A", 0.0, 3.0, paler(ink::kGreen, 0.8)},
+                                  {"zone B", 3.0, 4.0, paler(ink::kOrange, 0.8)},
+                                  {"zone C", 4.0, 5.0, paler(ink::kOrange, 0.5)},
+                                  {"zone D", 5.0, 6.0, paler(ink::kVermilion, 0.5)}}};
+
+/// Evenly on a logarithmic scale, with the frequencies of the poles between them.
+std::vector<double> frequenciesOf(const LoopResponse& response) {
+  std::vector<double> w;
+  for (int i = 0; i < kPoints; ++i) {
+    w.push_back(response.highest *
+                std::pow(10.0, kDecadesOfFrequency * (i / (kPoints - 1.0) - 1.0)));
+  }
+  for (const Complex& pole : response.poles) {
+    const double place = std::fabs(pole.imag());
+    if (place > w.front() && place < response.highest) {
+      w.push_back(place);
+    }
+  }
+  std::sort(w.begin(), w.end());
+  return w;
+}
+
+struct Curves {
+  Series gain, phase, nyquist, sensitivity;
+};
+
+Curves curvesOf(const LoopResponse& response, const std::string& name) {
+  Curves curves;
+  for (Series* series : {&curves.gain, &curves.phase, &curves.nyquist, &curves.sensitivity}) {
+    series->name = name;
+  }
+  const auto add = [](Series& series, double x, double y) {
+    series.x.push_back(x);
+    series.y.push_back(y);
+  };
+  double before = kNaN;
+  for (const double w : frequenciesOf(response)) {
+    const Complex loop = response.open_loop(w);
+    const double phase = std::arg(loop) * 180.0 / kPi;
+    if (std::fabs(phase - before) > 180.0) {  // from one end of the axis to the other
+      add(curves.phase, w, kNaN);
+    }
+    before = phase;
+    add(curves.gain, w, std::abs(loop));
+    add(curves.phase, w, phase);
+    const bool near = std::abs(loop + 1.0) < kNyquistReach;
+    add(curves.nyquist, near ? loop.real() : kNaN, near ? loop.imag() : kNaN);
+    const double sensitivity = 1.0 / std::abs(1.0 + loop);
+    add(curves.sensitivity, w, sensitivity <= kMaxSensitivity ? sensitivity : kNaN);
+  }
+  const double highest = *std::max_element(curves.gain.y.begin(), curves.gain.y.end());
+  for (double& gain : curves.gain.y) {
+    gain = gain < kLowestGain * highest ? kNaN : gain;
+  }
+  return curves;
+}
+
+/// |1 + L| = 1 / 3: what zone A keeps clear.
+Series circleOfZoneA() {
+  Series circle{"limit of zone A (curve outside)", {}, {}, Pen{ink::kGreen, 1.5, {5.0, 3.0}}};
+  for (int i = 0; i <= 120; ++i) {
+    const Complex at = -1.0 + std::polar(1.0 / 3.0, kTwoPi * i / 120.0);
+    circle.x.push_back(at.real());
+    circle.y.push_back(at.imag());
+  }
+  return circle;
+}
+
+void addZones(double low, double high, Chart& chart) {
+  double top = kZones.back().high;
+  for (const Series& curve : chart.series) {
+    for (const double y : curve.y) {
+      top = std::fmax(top, y);
+    }
+  }
+  for (const Zone& zone : kZones) {
+    const double end = zone.high == kZones.back().high ? top : zone.high;
+    Series area{zone.name, {low, high, high, low}, {zone.low, zone.low, end, end}};
+    area.fill = zone.ink;
+    chart.series.push_back(area);
+  }
+}
+
 }  // namespace
 
 LoopReport loopReport(const Scene& scene, std::optional<double> speed) {
@@ -225,7 +320,7 @@ LoopReport loopReport(const Scene& scene, std::optional<double> speed) {
   report.scene = &scene;
   report.controllers.resize(scene.controllers.size());
   for (const ClosedLoop& loop : closedLoops(scene)) {
-    std::vector<LoopedController> controllers = judged(scene, loop, speed);
+    std::vector<LoopedController> controllers = loopedControllers(scene, loop, speed);
     for (std::size_t k = 0; k < controllers.size(); ++k) {
       const std::size_t i = loop.controllers()[k];
       report.controllers[i] = std::move(controllers[k]);
@@ -236,9 +331,7 @@ LoopReport loopReport(const Scene& scene, std::optional<double> speed) {
 }
 
 Json json(const LoopReport& report) {
-  Json json;
-  json["scene"] = report.scene->name;
-  json["controllers"] = Json::object();
+  Json json{{"scene", report.scene->name}, {"controllers", Json::object()}};
   for (const LoopedController& controller : report.controllers) {
     json["controllers"][controller.spec->name] = loopedControllerJson(controller);
   }
@@ -246,11 +339,56 @@ Json json(const LoopReport& report) {
 }
 
 std::string text(const LoopReport& report) {
-  std::string out;
-  for (const LoopedController& controller : report.controllers) {
-    out += (out.empty() ? "" : "\n") + loopedControllerText(controller);
+  return joined(report.controllers, loopedControllerText, "\n");
+}
+
+Figure figure(const LoopedController& controller) {
+  Chart gain, phase, nyquist, sensitivity;
+  gain.title = "open loop, all other loops closed";
+  for (Chart* chart : {&gain, &phase, &sensitivity}) {
+    chart->x = {"frequency (rad/s)", true, true};
   }
-  return out;
+  gain.y = {"gain |L|", true, false};
+  phase.y.label = "phase of L (deg)";
+  phase.y.degrees = true;
+  phase.horizontal = {{-180.0, ""}, {180.0, ""}, {0.0, ""}};
+  nyquist.title = "Nyquist";
+  nyquist.x.label = "Re L";
+  nyquist.y.label = "Im L";
+  nyquist.equal_aspect = true;
+  sensitivity.title = "sensitivity, zones of ISO 14839-3";
+  sensitivity.y.label = "|S|";
+  gain.horizontal = {{1.0, ""}};
+  const double highest = controller.responses.front().highest;
+  for (std::size_t i = 0; i < controller.responses.size(); ++i) {
+    const Curves curves = curvesOf(controller.responses[i], controller.spec->measured[i]);
+    gain.series.push_back(curves.gain);
+    phase.series.push_back(curves.phase);
+    nyquist.series.push_back(curves.nyquist);
+    sensitivity.series.push_back(curves.sensitivity);
+  }
+  for (const SampledMargins& margins : controller.margins) {
+    if (margins.sensitivity_peak <= kMaxSensitivity) {
+      Series peak{"", {margins.peak_frequency}, {margins.sensitivity_peak}, Pen{ink::kBlack, 1.0}};
+      peak.line = false;
+      peak.marks = Marks::kRings;
+      sensitivity.series.push_back(peak);
+    }
+  }
+  addZones(highest * std::pow(10.0, -kDecadesOfFrequency), highest, sensitivity);
+  nyquist.series.push_back(circleOfZoneA());
+  Series point{"-1", {-1.0}, {0.0}, Pen{ink::kBlack, 1.0}};
+  point.line = false;
+  point.marks = Marks::kDots;
+  nyquist.series.push_back(point);
+  Figure figure;
+  figure.title = fmt::format("{}: {} at {:g} Hz, {}", controller.spec->name, controller.spec->type,
+                             controller.spec->rate, verdictText(controller.stability->verdict));
+  figure.charts = {gain, nyquist, phase, sensitivity};
+  figure.columns = 2;
+  figure.width = 1200;
+  figure.chart_height = 430;
+  return figure;
 }
 
 }  // namespace whirl_twin

@@ -1,5 +1,4 @@
-// What `twin loop` shows: how the controllers of a scene close their loops, judged as they are
-// sampled.
+// What `twin loop` shows: stability and margins of the sampled control loops of a scene.
 #pragma once
 
 #include <optional>
@@ -18,11 +17,11 @@ namespace whirl_twin {
 struct LoopedController {
   const ControllerSpec* spec = nullptr;
   std::vector<std::string> loop;  ///< all controllers of its loop, itself among them
-  double shaft_speed = 0.0;       ///< [rad/s], that it is judged at
-  /// What it measures and gives where the loop holds its systems, which is where it is judged.
-  /// Empty: it holds nothing, and is judged about the equilibria nearest to where they start.
+  double shaft_speed = 0.0;       ///< [rad/s], of the linearization
+  /// Inputs and outputs at the closed-loop equilibrium, about which it is linearized. Empty: there
+  /// is none, and it is linearized about the equilibria nearest to the start.
   std::vector<double> held_measured, held_outputs;
-  /// Nothing where a law of the loop is not linear.
+  /// Nothing where a control law of the loop is not linear.
   std::optional<SampledStability> stability;
   double period = 0.0;  ///< [s], that the spectral radius is of: of a sample, or, of several
                         ///< rates, after which they come again
@@ -31,7 +30,7 @@ struct LoopedController {
   std::vector<SampledMargins> at_outputs;  ///< likewise at each output, the input of the plant
   /// Loops opened at each of them, for pictures.
   std::vector<LoopResponse> responses;
-  std::string objection;  ///< why nothing can be said; else ""
+  std::string objection;  ///< why the loop cannot be evaluated; else ""
 };
 
 struct LoopReport {
@@ -39,14 +38,14 @@ struct LoopReport {
   std::vector<LoopedController> controllers;  ///< in the order of the scene
 };
 
-/// About the motions that the loops hold their systems in (scene/held_motion.h), found from where
-/// these start, at their shafts' speeds there or at `speed` [rad/s].
+/// About the motions that the loops hold their systems in (scene/closed_loop_equilibrium.h), found
+/// from where these start, at their shafts' speeds there or at `speed` [rad/s].
 LoopReport loopReport(const Scene& scene, std::optional<double> speed = std::nullopt);
 
 Json json(const LoopReport& report);
 std::string text(const LoopReport& report);
 /// Bode and Nyquist diagrams of the loop opened at each of its sensors, and the sensitivity there
-/// over the zones of ISO 14839-3. Of a controller whose loop has been judged.
+/// over the zones of ISO 14839-3. Of a controller whose loop was evaluated.
 Figure figure(const LoopedController& controller);
 
 }  // namespace whirl_twin

@@ -10,7 +10,8 @@
 #include <variant>
 
 #include "estimation/measured_run.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
+#include "messages/names.h"
 #include "messages/units.h"
 #include "transport/logged_messages.h"
 
@@ -46,22 +47,22 @@ class ChannelsFound {
     last = block;
   }
 
-  /// Of messages that are out of order: throws Refusal where they cannot be of one run.
+  /// Of messages that are out of order: throws InputError where they cannot be of one run.
   void requireOneRun(const std::string& path) const {
     if (!contradiction_.empty()) {
-      throw Refusal(
+      throw InputError(
           fmt::format("{}: must have one run, found two: the messages are not in the order of "
                       "their recorded times, and {}",
                       path, contradiction_));
     }
   }
 
-  /// Throws Refusal for an input of which there is no sample in its unit.
-  void requireInputs(const std::string& path, const std::vector<FollowedSource>& sources) const {
-    for (const FollowedSource& source : sources) {
-      for (const FollowedSource::Channel& channel : source.channels) {
+  /// Throws InputError for an input of which there is no sample in its unit.
+  void requireInputs(const std::string& path, const std::vector<EstimatorSource>& sources) const {
+    for (const EstimatorSource& source : sources) {
+      for (const EstimatorSource::Channel& channel : source.channels) {
         if (channel.input && !hasSample(source.name, channel)) {
-          throw Refusal(fmt::format(
+          throw InputError(fmt::format(
               "{}: {}/{}, an input of the settings, must have a valid sample in {}; there are: {}",
               path, source.name, channel.name, channel.unit, fmt::join(all(), ", ")));
         }
@@ -75,7 +76,7 @@ class ChannelsFound {
     state::Measurement last;
   };
 
-  bool hasSample(const std::string& source, const FollowedSource::Channel& channel) const {
+  bool hasSample(const std::string& source, const EstimatorSource::Channel& channel) const {
     const auto found = sources_.find(source);
     if (found == sources_.end() || found->second.units.count(channel.name) == 0) {
       return false;
@@ -100,12 +101,12 @@ class ChannelsFound {
 };
 
 MeasuredFile readMeasuredMessages(const std::string& path, const std::string& scene,
-                                  const std::vector<FollowedSource>& sources,
+                                  const std::vector<EstimatorSource>& sources,
                                   const std::string& prefix,
                                   const std::function<void(const state::Measurement&)>& take,
                                   const LogProgress& advanced) {
   std::set<std::string> names;
-  for (const FollowedSource& source : sources) {
+  for (const EstimatorSource& source : sources) {
     names.insert(source.name);
   }
   MeasuredFile file;
@@ -122,7 +123,7 @@ MeasuredFile readMeasuredMessages(const std::string& path, const std::string& sc
       },
       advanced);
   if (file.messages == 0) {
-    throw Refusal(
+    throw InputError(
         fmt::format("{}: must have measurements of the sensors of '{}' on channels that begin with "
                     "{} (--lcm-prefix), {}",
                     path, scene, prefix, foundElsewhere(log)));
@@ -139,10 +140,10 @@ MeasuredFile readMeasuredMessages(const std::string& path, const std::string& sc
 }
 
 /// The only one, no keyphasor: rows have one time for all.
-const FollowedSource& tableSource(const std::string& scene,
-                                  const std::vector<FollowedSource>& sources) {
+const EstimatorSource& tableSource(const std::string& scene,
+                                   const std::vector<EstimatorSource>& sources) {
   if (sources.size() != 1 || sources.front().keyphasor) {
-    throw Refusal(
+    throw InputError(
         fmt::format("a table has the rows of one source without a keyphasor; the scene "
                     "'{}' and the settings have {} sources: use an LCM log",
                     scene, sources.size()));
@@ -150,21 +151,21 @@ const FollowedSource& tableSource(const std::string& scene,
   return sources.front();
 }
 
-MeasuredFile readTable(const std::string& path, const FollowedSource& source,
+MeasuredFile readTable(const std::string& path, const EstimatorSource& source,
                        const std::function<void(const state::Measurement&)>& take) {
   state::Measurement block;
   block.source = source.name;
   block.channel = source.names();
   block.unit = source.units();
-  for (const FollowedSource::Channel& channel : source.channels) {
+  for (const EstimatorSource::Channel& channel : source.channels) {
     block.deviation.push_back(channel.deviation);
   }
   MeasuredFile file;
   const MeasuredRun run = [&] {
     try {
       return readMeasuredRun(path, "time", block.channel);
-    } catch (const Refusal& error) {
-      throw Refusal(path + ": " + error.what());
+    } catch (const InputError& error) {
+      throw InputError(path + ": " + error.what());
     }
   }();
   file.remarks = run.remarks;
@@ -192,15 +193,124 @@ MeasuredFile readTable(const std::string& path, const FollowedSource& source,
   return file;
 }
 
+bool endsWith(const std::string& path, const std::string& end) {
+  return path.size() >= end.size() && path.compare(path.size() - end.size(), end.size(), end) == 0;
+}
+
+/// What was measured by one source: a row for each sample.
+struct SourceRows {
+  std::vector<std::int64_t> instants;  // ns
+  std::vector<double> values;          // a row after the other
+  std::size_t not_valid = 0;           // samples
+};
+
+/// Places of the columns in a block; none where one of them is missing.
+std::vector<std::size_t> placesOf(const std::vector<std::string>& columns,
+                                  const state::Measurement& block) {
+  std::vector<std::size_t> places;
+  for (const std::string& column : columns) {
+    const auto place =
+        std::find_if(block.channel.begin(), block.channel.end(), [&](const std::string& channel) {
+          return column == channel || column == block.source + "/" + channel;
+        });
+    if (place == block.channel.end()) {
+      return {};
+    }
+    places.push_back(static_cast<std::size_t>(place - block.channel.begin()));
+  }
+  return places;
+}
+
+void take(const state::Measurement& block, const std::vector<std::size_t>& places,
+          SourceRows& rows) {
+  const std::size_t channels = block.channel.size();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(block.samples); ++i) {
+    const bool valid = std::all_of(places.begin(), places.end(), [&](std::size_t place) {
+      return block.valid[i * channels + place] != 0;
+    });
+    if (!valid) {
+      ++rows.not_valid;
+      continue;
+    }
+    rows.instants.push_back(block.instantOf(static_cast<std::int64_t>(i)));
+    for (const std::size_t place : places) {
+      rows.values.push_back(block.value[i * channels + place]);
+    }
+  }
+}
+
+MeasuredRun readMeasuredLog(const std::string& path, const std::string& prefix,
+                            const std::vector<std::string>& columns) {
+  std::map<std::string, SourceRows> sources;
+  std::set<std::string> seen;
+  const LoggedMessages log = readLoggedMessages(
+      path, prefix, {&state::Measurement::kKind},
+      [&](const Message& message, std::int64_t) {
+        const auto& block = std::get<state::Measurement>(message);
+        for (const std::string& channel : block.channel) {
+          seen.insert(block.source + "/" + channel);
+        }
+        const std::vector<std::size_t> places = placesOf(columns, block);
+        if (!places.empty()) {
+          take(block, places, sources[block.source]);
+        }
+      },
+      [](std::uint64_t, std::uint64_t) {});
+  if (sources.size() != 1) {
+    throw InputError(fmt::format(
+        "must have {} of one source, on channels that begin with {} (--lcm-prefix); {}",
+        fmt::join(columns, ", "), prefix,
+        seen.empty() ? foundElsewhere(log) : fmt::format("found {}", fmt::join(seen, ", "))));
+  }
+  const SourceRows& rows = sources.begin()->second;
+  std::vector<double> time;
+  std::vector<MeasuredColumn> read;
+  const std::int64_t first =
+      rows.instants.empty() ? 0 : *std::min_element(rows.instants.begin(), rows.instants.end());
+  for (const std::int64_t instant : rows.instants) {
+    time.push_back(1.0e-9 * static_cast<double>(instant - first));
+  }
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    read.push_back({columns[k], {}});
+    for (std::size_t i = k; i < rows.values.size(); i += columns.size()) {
+      read.back().values.push_back(rows.values[i]);
+    }
+  }
+  MeasuredRun run = measuredRun(std::move(time), std::move(read));
+  if (log.out_of_order > 0) {
+    run.remarks.push_back(outOfOrder(log));
+  }
+  if (rows.not_valid > 0) {
+    run.remarks.push_back(fmt::format("{} {} marked invalid by the sensor, left out",
+                                      rows.not_valid, rows.not_valid == 1 ? "row" : "rows"));
+  }
+  if (log.damaged + log.rejected > 0) {
+    run.remarks.push_back(
+        fmt::format("{} {} of the file and {} {} left out{}", log.damaged,
+                    log.damaged == 1 ? "corrupt place" : "corrupt places", log.rejected,
+                    log.rejected == 1 ? "message" : "messages",
+                    log.first_damage.empty() ? "" : "; the first: " + log.first_damage));
+  }
+  return run;
+}
+
 }  // namespace
 
 MeasuredFile readMeasurements(const std::string& path, const std::string& scene,
-                              const std::vector<FollowedSource>& sources, const std::string& prefix,
+                              const std::vector<EstimatorSource>& sources,
+                              const std::string& prefix,
                               const std::function<void(const state::Measurement&)>& take,
                               const LogProgress& advanced) {
   return std::filesystem::path(path).extension() == ".csv"
              ? readTable(path, tableSource(scene, sources), take)
              : readMeasuredMessages(path, scene, sources, prefix, take, advanced);
+}
+
+MeasuredRun readRecordedRun(const std::string& path, const std::string& prefix,
+                            const std::string& time, const std::vector<std::string>& columns) {
+  const bool is_log =
+      endsWith(path, ".lcmlog") || endsWith(path, ".bag") || endsWith(path, ".bag.active");
+  return is_log ? readMeasuredLog(path, prefix, columns) : readMeasuredRun(path, time, columns);
 }
 
 }  // namespace whirl_twin

@@ -1,4 +1,4 @@
-#include "reports/method_analysis.h"
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,9 @@
 #include "analysis/natural_modes.h"
 #include "analysis/routh_table.h"
 #include "analysis/validity.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
+#include "reports/report_values.h"
+#include "reports/system_analysis.h"
 
 namespace whirl_twin {
 
@@ -28,11 +30,11 @@ std::string stiffnessForm(Definiteness form) {
   return "indefinite";
 }
 
-/// Nothing where the second shape says nothing new.
+/// Nothing where the second shape is linearly dependent.
 std::optional<double> ritzFrequency(const Linearization& l, const Eigen::MatrixXd& shapes) {
   try {
     return ritzModes(l.mass, l.stiffness, shapes).assumed.frequencies[0];
-  } catch (const Refusal&) {
+  } catch (const InputError&) {
     return std::nullopt;
   }
 }
@@ -51,7 +53,7 @@ FrequencyBounds frequencyBounds(const Linearization& l, bool definite) {
     try {
       static_cast<void>(dunkerleyBound(l.mass, l.stiffness));
     } catch (const RunFailure& error) {
-      b.refusal = error.what();
+      b.inputError = error.what();
     }
     return b;
   }
@@ -118,7 +120,7 @@ Eigen::MatrixXcd loadPhasors(const Dynamics& dynamics, const SystemAnalysis& a,
       basis(i, 2 * k + 1) = std::cos(phase);
       basis(i, 2 * k + 2) = -std::sin(phase);
     }
-    force.row(i) = dynamics.unbalancedForce(a.about, rest, {t, 0.0, 0.0, 0.0});
+    force.row(i) = dynamics.residualForce(a.about, rest, {t, 0.0, 0.0, 0.0});
   }
   const Eigen::MatrixXd fitted = PivotedQr(basis).solve(force);
   Eigen::MatrixXcd phasors(a.about.size(), count);
@@ -148,11 +150,86 @@ std::vector<SteadyResponse> steadyResponses(const BuiltSystem& system, const Sys
       response.amplitude = x.cwiseAbs();
       response.lag = -x.array().arg();
     } catch (const RunFailure& error) {
-      response.refusal = error.what();
+      response.inputError = error.what();
     }
     all.push_back(response);
   }
   return all;
+}
+
+/// A matrix of few coordinates; of many there is --json.
+std::string smallMatrixText(const char* title, const Eigen::MatrixXd& m) {
+  return m.rows() <= kFewCoordinates ? matrixText(title, m)
+                                     : fmt::format("    {:<15} --json\n", title);
+}
+
+std::string stiffnessText(const MethodAnalysis& m) {
+  if (m.flexibility) {
+    return fmt::format("  stiffness is {}; influence coefficients\n", m.stiffness_form) +
+           smallMatrixText("flexibility", *m.flexibility);
+  }
+  if (m.rigid_body_modes.cols() == 0) {
+    return fmt::format("  stiffness is {}\n", m.stiffness_form);
+  }
+  return fmt::format("  stiffness is {}: rigid-body modes, in columns\n", m.stiffness_form) +
+         smallMatrixText("modes", m.rigid_body_modes);
+}
+
+std::string boundsText(const FrequencyBounds& b) {
+  std::string out = "  lowest natural frequency, rad/s\n";
+  if (b.dunkerley) {
+    out +=
+        fmt::format("    Dunkerley {:.8g} <= exact {:.8g} <= {}Rayleigh {:.8g}\n", *b.dunkerley,
+                    b.exact[0], b.ritz ? fmt::format("Ritz {:.8g} <= ", *b.ritz) : "", *b.rayleigh);
+    out +=
+        "    Rayleigh: the deflection under its own inertia; Ritz: that and its own deflection\n";
+    out += fmt::format("    matrix iteration from that deflection: {:.8g} after {} steps\n",
+                       b.iterated, b.iterations);
+  } else {
+    out += fmt::format("    exact {:.8g}; no lower bound: {}\n", b.exact[0], b.inputError);
+  }
+  return out + "  undamped mode shapes, in columns\n" + smallMatrixText("shapes", b.shapes);
+}
+
+std::string responseText(const SteadyResponse& r, const SystemAnalysis& a) {
+  std::string out = fmt::format("  steady response to the load at {:g} rad/s\n", r.frequency);
+  if (!r.inputError.empty()) {
+    return out + fmt::format("    none: {}\n", r.inputError);
+  }
+  for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
+    const auto place = static_cast<Eigen::Index>(i);
+    out += fmt::format("    {:<15} {:.6g} {}, {:.4g} rad behind cos\n", a.coordinates[i].name,
+                       r.amplitude[place], a.coordinates[i].unit, r.lag[place]);
+  }
+  return out;
+}
+
+Json boundsJson(const FrequencyBounds& b) {
+  Json json{{"exact", b.exact[0]}, {"dunkerley_lower", b.dunkerley}};
+  if (!b.dunkerley) {
+    json["dunkerley_refusal"] = b.inputError;
+  }
+  json["rayleigh_upper"] = b.rayleigh;
+  json["ritz_upper"] = b.ritz;
+  if (b.iterations > 0) {
+    json["matrix_iteration"] = {{"frequency", b.iterated}, {"steps", b.iterations}};
+  }
+  return json;
+}
+
+Json responseJson(const SteadyResponse& r, const SystemAnalysis& a) {
+  Json json;
+  json["frequency"] = r.frequency;
+  if (!r.inputError.empty()) {
+    json["refusal"] = r.inputError;
+    return json;
+  }
+  for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
+    const auto place = static_cast<Eigen::Index>(i);
+    json["amplitude"][a.coordinates[i].name] = r.amplitude[place];
+    json["lag"][a.coordinates[i].name] = r.lag[place];
+  }
+  return json;
 }
 
 }  // namespace
@@ -162,13 +239,13 @@ MethodAnalysis analyzeMethods(const BuiltSystem& system, const SystemAnalysis& a
   MethodAnalysis m;
   const Linearization& l = a.linearization;
   const auto degree = static_cast<int>(a.reduced_stability.polynomial.size()) - 1;
-  if (degree >= kLeastConditionDegree && degree <= kMostConditionDegree) {
+  if (degree >= kMinConditionDegree && degree <= kMaxConditionDegree) {
     m.routh_conditions = routhConditions(a.reduced_stability.polynomial);
   }
   m.reactions = dynamics.reactions(a.q, a.v, a.acceleration, a.moment);
   m.conditions = validity(dynamics, a.q, a.v, a.moment);
   m.responses = steadyResponses(system, a);
-  m.virtual_work = dynamics.unbalancedForce(a.q, Eigen::VectorXd::Zero(a.q.size()), a.moment);
+  m.virtual_work = dynamics.residualForce(a.q, Eigen::VectorXd::Zero(a.q.size()), a.moment);
   m.conservative_form = a.at_equilibrium && !a.speed && l.gyroscopic.isZero(0.0) &&
                         l.circulatory.isZero(0.0) && a.about_v.isZero(0.0);
   if (!m.conservative_form) {
@@ -187,6 +264,79 @@ MethodAnalysis analyzeMethods(const BuiltSystem& system, const SystemAnalysis& a
   }
   m.bounds = frequencyBounds(l, definite);
   return m;
+}
+
+std::string text(const MethodAnalysis& m, const SystemAnalysis& a) {
+  std::string out;
+  if (m.conservative_form) {
+    out += stiffnessText(m);
+  }
+  if (m.bounds) {
+    out += boundsText(*m.bounds);
+  }
+  out += joined(m.responses, [&](const SteadyResponse& r) { return responseText(r, a); });
+  if (!m.routh_conditions.empty()) {
+    out += "  Routh's conditions for decay\n";
+    for (const RouthCondition& c : m.routh_conditions) {
+      out += fmt::format("    {:<15} {:.6g} > {:.6g}{}\n", c.name, c.left, c.right,
+                         c.holds ? "" : "  violated");
+    }
+  }
+  if (m.virtual_work.size() > kFewCoordinates) {
+    out += "  generalized forces, at rest in that position: --json\n";
+  } else if (m.virtual_work.size() > 0) {
+    out += "  generalized forces, at rest in that position\n";
+    for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
+      out += fmt::format("    {:<15} {:.6g} {}\n", a.coordinates[i].name,
+                         m.virtual_work[static_cast<Eigen::Index>(i)] + 0.0,
+                         a.coordinates[i].isAngle() ? "N m" : "N");
+    }
+  }
+  if (!m.reactions.empty()) {
+    out += fmt::format("  reactions at t = {:g} s\n", a.moment.time);
+    for (const Reaction& r : m.reactions) {
+      out += fmt::format("    {:<15} {:.6g} {}\n", r.name, r.value, r.unit);
+    }
+  }
+  if (!m.conditions.empty()) {
+    out += fmt::format("  conditions of the equations at t = {:g} s\n", a.moment.time);
+    for (const Condition& c : m.conditions) {
+      out += fmt::format("    {:<15} {:.6g} {} > 0; else {}\n", c.name, c.margin, c.unit, c.broken);
+    }
+  }
+  return out;
+}
+
+Json json(const MethodAnalysis& m, const SystemAnalysis& a) {
+  Json json = Json::object();
+  if (m.conservative_form) {
+    json["stiffness_form"] = m.stiffness_form;
+    json["influence_coefficients"] = m.flexibility ? matrixJson(*m.flexibility) : Json();
+    json["rigid_body_modes"] = matrixJson(m.rigid_body_modes.transpose());
+  }
+  if (m.bounds) {
+    json["undamped_natural_frequencies"] = arrayJson(m.bounds->exact);
+    json["mode_shapes"] = matrixJson(m.bounds->shapes.transpose());
+    json["lowest_frequency"] = boundsJson(*m.bounds);
+  }
+  for (const SteadyResponse& r : m.responses) {
+    json["steady_response"].push_back(responseJson(r, a));
+  }
+  for (const RouthCondition& c : m.routh_conditions) {
+    json["routh_conditions"].push_back(
+        {{"condition", c.name}, {"left", c.left}, {"right", c.right}, {"holds", c.holds}});
+  }
+  for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
+    json["virtual_work"][a.coordinates[i].name] =
+        m.virtual_work[static_cast<Eigen::Index>(i)] + 0.0;
+  }
+  for (const Reaction& r : m.reactions) {
+    json["reactions"][r.name] = {{"value", r.value}, {"unit", r.unit}};
+  }
+  for (const Condition& c : m.conditions) {
+    json["conditions"][c.name] = {{"margin", c.margin}, {"unit", c.unit}, {"broken", c.broken}};
+  }
+  return json;
 }
 
 }  // namespace whirl_twin

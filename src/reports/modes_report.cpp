@@ -8,16 +8,18 @@
 #include "algebra/constants.h"
 #include "analysis/banded_rotor.h"
 #include "analysis/stability.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
+#include "reports/report_values.h"
+#include "reports/rotor_outline.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kBeyondFirst = 3.0;   // of the first
-constexpr double kOfNyquist = 0.8;     // what probes can tell
-constexpr double kLeastTurn = 1.0e-4;  // rad from sample to sample, of the frequencies looked at
-constexpr double kWellKnown = 0.25;    // deviation of a decay rate, of it
+constexpr double kBeyondFirst = 3.0;  // of the first
+constexpr double kOfNyquist = 0.8;    // up to which probes resolve a mode
+constexpr double kMinTurn = 1.0e-4;   // rad from sample to sample, of the frequencies searched
+constexpr double kWellKnown = 0.25;   // deviation of a decay rate, of it
 
 /// Whirls first, then what is damped too much to be one.
 std::vector<WhirlMode> whirlsFirst(std::vector<WhirlMode> modes) {
@@ -25,7 +27,8 @@ std::vector<WhirlMode> whirlsFirst(std::vector<WhirlMode> modes) {
   return modes;
 }
 
-/// The frequencies to look at: as far as the model has its first modes, and the samples reach.
+/// Highest frequency of the search: that of the model's first modes, within the range of the
+/// samples.
 double limitOf(const std::vector<WhirlMode>& model, double speed, double period) {
   double limit = 3.0 * speed;
   if (!model.empty()) {
@@ -35,7 +38,7 @@ double limitOf(const std::vector<WhirlMode>& model, double speed, double period)
     limit = std::max(kBeyondLastMode * model[last].dampedFrequency(),
                      kBeyondFirst * model.front().dampedFrequency());
   }
-  return std::clamp(limit, kLeastTurn / period, kOfNyquist * 0.5 * kTwoPi / period);
+  return std::clamp(limit, kMinTurn / period, kOfNyquist * 0.5 * kTwoPi / period);
 }
 
 /// One mode of the measured ones for each sense of the model's: the stronger stays.
@@ -118,26 +121,49 @@ void addModesNotes(ModesReport& report) {
   }
 }
 
+constexpr double kHeight = 0.9;  // of the largest orbit, the rotor behind it
+constexpr double kPale = 0.6;
+
+Chart shapeChart(const ModesReport& r, std::size_t place) {
+  const WhirlMode& mode = r.model[place];
+  OrbitChart drawn = orbitChart(mode.orbits, r.system->stations, "of the largest orbit",
+                                DrawnInstant::kWidestHighest);
+  Chart& chart = drawn.chart;
+  if (r.system->shaft && drawn.along_shaft) {
+    const std::vector<Series> outline =
+        rotorOutline(*r.system->shaft, kHeight / largestRadius(*r.system->shaft), kPale);
+    chart.series.insert(chart.series.begin(), outline.begin(), outline.end());
+    chart.x.label = "along the shaft (m)";
+    for (Series& series : chart.series) {
+      series.name.clear();  // one legend, in words, for all
+    }
+  }
+  chart.title = fmt::format("{}: {}, {:.4g} rad/s ({:.0f} rpm), log. decrement {:.3g}", place + 1,
+                            name(mode.whirl), mode.dampedFrequency(), mode.dampedFrequency() / kRpm,
+                            mode.logDecrement());
+  return chart;
+}
+
 }  // namespace
 
 ModesReport modesReport(const RotorSystem& system, double speed) {
   ModesReport report;
   report.system = &system;
   report.speed = speed;
-  const WholeRotor whole = wholeRotor(system);
-  const auto all = static_cast<std::size_t>(whole.rotor.dof());
-  if (whole.rotor.dof() > kMostCompleteCoordinates) {
-    const BandedLinearization matrices = BandedRotor(whole.rotor).matrices(speed);
+  const FullOrderModel full = fullOrderModel(system);
+  const auto all = static_cast<std::size_t>(full.rotor.dof());
+  if (full.rotor.dof() > kMaxCompleteCoordinates) {
+    const BandedLinearization matrices = BandedRotor(full.rotor).matrices(speed);
     std::size_t whirls = 0;
     for (std::size_t count = kLowestModes; count <= all && whirls < kLowestModes; count *= 2) {
-      const auto lowest = lowestWhirlModes(matrices, whole.stations, count);
+      const auto lowest = lowestWhirlModes(matrices, full.stations, count);
       report.model = lowest ? lowest->modes : std::vector<WhirlMode>();
       whirls = static_cast<std::size_t>(
           std::count_if(report.model.begin(), report.model.end(), isWhirl));
     }
   }
   if (report.model.empty()) {
-    report.model = whirlModes(whole.rotor, whole.stations, speed).modes;
+    report.model = whirlModes(full.rotor, full.stations, speed).modes;
   }
   report.model = whirlsFirst(std::move(report.model));
   return report;
@@ -163,9 +189,9 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
     report.one_probe.push_back(!station.whole());
   }
   const double highest = kOfNyquist * 0.5 * kTwoPi / record.period();
-  const double lowest = kLeastTurn / record.period();
+  const double lowest = kMinTurn / record.period();
   if (limit && !(*limit >= lowest && *limit <= highest)) {
-    throw Refusal(
+    throw InputError(
         fmt::format("--to: must be a frequency from {:.4g} to {:.4g} rad/s, {:g} of half the "
                     "sampling rate, found {:g}",
                     lowest, highest, kOfNyquist, *limit));
@@ -210,6 +236,21 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
   }
   addModesNotes(report);
   return report;
+}
+
+Figure figure(const ModesReport& r, std::size_t count) {
+  Figure figure;
+  figure.title = fmt::format(
+      "{}: whirl modes at {:.4g} rad/s, {:.0f} rpm (blue forward, red backward){}",
+      r.system->title(), r.speed, r.speed / kRpm, beyondMark(r.system->tables(), r.speed));
+  for (std::size_t k = 0; k < std::min(count, r.model.size()); ++k) {
+    figure.charts.push_back(shapeChart(r, k));
+  }
+  const bool along = r.system->shaft.has_value();
+  figure.columns = figure.charts.size() > 1 ? 2 : 1;
+  figure.width = 1040;
+  figure.chart_height = along ? 290 : 420;
+  return figure;
 }
 
 }  // namespace whirl_twin

@@ -41,15 +41,15 @@ struct ModesReport {
   std::vector<bool> one_probe;        ///< of each: it shows one direction only
   std::optional<AmbientRecord> record;
   std::vector<ComparedMode> modes;
-  std::vector<std::size_t> not_seen;  ///< of `model`, within what was looked at
-  std::vector<std::string> notes;     ///< what the record does not tell, in words
+  std::vector<std::size_t> not_seen;  ///< of `model`, within the frequencies searched
+  std::vector<std::string> notes;     ///< what is not identifiable from the record
 };
 
 /// The model's modes at a speed [rad/s], of a shaft of elements with all of them: of more than
-/// kMostCompleteCoordinates those of lowest frequency.
+/// kMaxCompleteCoordinates those of lowest frequency.
 ModesReport modesReport(const RotorSystem& system, double speed);
-/// And those that a record tells, about the speed that it kept to or about `speed`; `limit`
-/// [rad/s]: of the frequencies looked at, else a little beyond the model's sixth mode.
+/// And those identified from a record, at the speed that it kept for longest or at `speed`; `limit`
+/// [rad/s]: of the frequencies searched, else a little beyond the model's sixth mode.
 ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
                         std::optional<double> speed, std::optional<double> limit);
 

@@ -6,7 +6,7 @@
 
 #include "algebra/constants.h"
 #include "reports/modes_report.h"
-#include "reports/table_speeds.h"
+#include "reports/report_values.h"
 
 namespace whirl_twin {
 
@@ -19,19 +19,6 @@ std::string interval(double value, double half) {
 
 const char* sense(const AmbientMode& mode) {
   return mode.frequency > 0.0 ? "forward" : "backward";
-}
-
-Json phasorsJson(const std::vector<std::string>& stations, const Eigen::VectorXcd& shape,
-                 const Eigen::VectorXd& deviation) {
-  Json json = Json::array();
-  for (std::size_t s = 0; s < stations.size(); ++s) {
-    const auto k = static_cast<Eigen::Index>(s);
-    json.push_back({{"station", stations[s]},
-                    {"amplitude", std::abs(shape[k])},
-                    {"phase", std::arg(shape[k])},
-                    {"deviation", deviation[k]}});
-  }
-  return json;
 }
 
 /// Minor by major semi-axis, negative of an orbit against the rotation; 0 in a plane.
@@ -51,14 +38,13 @@ double kappa(const WhirlMode& mode) {
 
 Json modelJson(const ModesReport& report, std::size_t place) {
   const WhirlMode& mode = report.model[place];
-  Json json;
-  json["mode"] = place + 1;
-  json["frequency"] = mode.dampedFrequency();
-  json["decay_rate"] = -mode.eigenvalue.real() + 0.0;
-  json["damping_ratio"] = mode.dampingRatio();
-  json["log_decrement"] = mode.logDecrement();
-  json["whirl"] = name(mode.whirl);
-  json["is_whirl"] = isWhirl(mode);
+  Json json{{"mode", place + 1},
+            {"frequency", mode.dampedFrequency()},
+            {"decay_rate", -mode.eigenvalue.real() + 0.0},
+            {"damping_ratio", mode.dampingRatio()},
+            {"log_decrement", mode.logDecrement()},
+            {"whirl", name(mode.whirl)},
+            {"is_whirl", isWhirl(mode)}};
   json["shape"] = Json::array();
   for (std::size_t s = 0; s < mode.orbits.size(); ++s) {
     const Orbit& orbit = mode.orbits[s];
@@ -72,41 +58,44 @@ Json modelJson(const ModesReport& report, std::size_t place) {
   return json;
 }
 
-Json modeEstimateJson(double value, double deviation, double factor) {
-  return {{"value", value},
-          {"standard_deviation", deviation},
-          {"interval", {value - factor * deviation, value + factor * deviation}}};
-}
-
 Json measuredJson(const ModesReport& report, const ComparedMode& one) {
   const AmbientMode& mode = one.mode;
   const double factor = report.record->interval;
+  const auto estimate = [&](double value, double deviation) -> Json {
+    return {{"value", value},
+            {"standard_deviation", deviation},
+            {"interval", {value - factor * deviation, value + factor * deviation}}};
+  };
   const double frequency = std::fabs(mode.frequency);
-  Json json;
-  json["whirl"] = sense(mode);
-  json["frequency"] = modeEstimateJson(frequency, mode.frequency_deviation, factor);
-  json["decay_rate"] = modeEstimateJson(mode.decay_rate, mode.decay_deviation, factor);
-  json["damping_ratio"] =
-      modeEstimateJson(mode.dampingRatio(), mode.decay_deviation / mode.size(), factor);
-  json["log_decrement"] = modeEstimateJson(
-      mode.logDecrement(), mode.logDecrement() * mode.decay_deviation / std::fabs(mode.decay_rate),
-      factor);
-  json["other_sense"] = one.other_sense;
-  json["power"] = mode.power;
-  json["order"] = mode.order > 0 ? Json(mode.order) : Json();
-  json["shape"] = phasorsJson(report.stations, mode.shape, mode.shape_deviation);
+  const double decrement_deviation =
+      mode.logDecrement() * mode.decay_deviation / std::fabs(mode.decay_rate);
+  Json json{{"whirl", sense(mode)},
+            {"frequency", estimate(frequency, mode.frequency_deviation)},
+            {"decay_rate", estimate(mode.decay_rate, mode.decay_deviation)},
+            {"damping_ratio", estimate(mode.dampingRatio(), mode.decay_deviation / mode.size())},
+            {"log_decrement", estimate(mode.logDecrement(), decrement_deviation)},
+            {"other_sense", one.other_sense},
+            {"power", mode.power},
+            {"order", mode.order > 0 ? Json(mode.order) : Json()},
+            {"shape", Json::array()},
+            {"model", Json()}};
+  for (std::size_t s = 0; s < report.stations.size(); ++s) {
+    const auto k = static_cast<Eigen::Index>(s);
+    json["shape"].push_back({{"station", report.stations[s]},
+                             {"amplitude", std::abs(mode.shape[k])},
+                             {"phase", std::arg(mode.shape[k])},
+                             {"deviation", mode.shape_deviation[k]}});
+  }
   if (one.model) {
     const WhirlMode& model = report.model[*one.model];
     const double apart = model.dampedFrequency() - frequency;
     const double decay_apart = -model.eigenvalue.real() - mode.decay_rate;
     json["model"] = modelJson(report, *one.model);
-    json["model"]["assurance"] = one.assurance;
-    json["model"]["frequency_difference"] = apart;
-    json["model"]["decay_rate_difference"] = decay_apart;
-    json["model"]["agrees"] = std::fabs(apart) <= factor * mode.frequency_deviation &&
-                              std::fabs(decay_apart) <= factor * mode.decay_deviation;
-  } else {
-    json["model"] = nullptr;
+    json["model"].update({{"assurance", one.assurance},
+                          {"frequency_difference", apart},
+                          {"decay_rate_difference", decay_apart},
+                          {"agrees", std::fabs(apart) <= factor * mode.frequency_deviation &&
+                                         std::fabs(decay_apart) <= factor * mode.decay_deviation}});
   }
   return json;
 }
@@ -171,9 +160,8 @@ std::string measuredText(const ModesReport& report, const ComparedMode& one) {
 }  // namespace
 
 Json json(const ModesReport& report) {
-  Json json;
-  json["speed"] = report.speed;
-  json["beyond_tables"] = !report.system->tables().covers(report.speed);
+  Json json{{"speed", report.speed},
+            {"beyond_tables", !report.system->tables().covers(report.speed)}};
   if (report.log.empty()) {
     json["modes"] = Json::array();
     for (std::size_t k = 0; k < report.model.size(); ++k) {
@@ -183,24 +171,14 @@ Json json(const ModesReport& report) {
   }
   json["log"] = report.log;
   json["stations"] = report.stations;
-  json["samples"] = report.counts.samples;
-  json["samples_without_angle"] = report.counts.no_angle;
-  json["values_not_valid"] = report.counts.not_valid;
-  json["false_pulses"] = report.counts.false_pulses;
-  json["missing_pulses"] = report.counts.missing_pulses;
-  json["pulse_jitter"] = report.counts.jitter;
+  report.counts.addTo(json, report.counts.samples);
   json["duration"] = report.record ? report.record->duration : 0.0;
   json["limit"] = report.record ? Json(report.record->limit) : Json();
   json["vibration"] = report.record ? Json(report.record->vibration) : Json();
   json["orders"] = report.record ? Json(report.record->orders) : Json();
-  json["modes"] = Json::array();
-  for (const ComparedMode& one : report.modes) {
-    json["modes"].push_back(measuredJson(report, one));
-  }
-  json["not_seen"] = Json::array();
-  for (const std::size_t k : report.not_seen) {
-    json["not_seen"].push_back(modelJson(report, k));
-  }
+  json["modes"] =
+      listJson(report.modes, [&](const ComparedMode& one) { return measuredJson(report, one); });
+  json["not_seen"] = listJson(report.not_seen, [&](std::size_t k) { return modelJson(report, k); });
   json["notes"] = report.notes;
   return json;
 }
@@ -262,19 +240,12 @@ std::string text(const ModesReport& report) {
   } else {
     out += fmt::format(": {}\n", report.log);
   }
-  for (const ComparedMode& one : report.modes) {
-    out += measuredText(report, one);
-  }
+  out += joined(report.modes, [&](const ComparedMode& one) { return measuredText(report, one); });
   if (!report.not_seen.empty()) {
     out += "  of the model, not measured:\n";
-    for (const std::size_t k : report.not_seen) {
-      out += modelLine(report, k);
-    }
+    out += joined(report.not_seen, [&](std::size_t k) { return modelLine(report, k); });
   }
-  for (const std::string& note : report.notes) {
-    out += fmt::format("  {}\n", note);
-  }
-  return out + beyond;
+  return out + joined(report.notes, [](const auto& note) { return "  " + note + "\n"; }) + beyond;
 }
 
 }  // namespace whirl_twin

@@ -12,10 +12,9 @@
 #include <utility>
 
 #include "algebra/constants.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "messages/wall_clock.h"
 #include "monitoring/twin_monitor.h"
-#include "monitoring/watched_kinds.h"
 #include "monitoring/whirl_vibration.h"
 #include "transport/logged_messages.h"
 
@@ -23,9 +22,9 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kLongestWindow = 20.0;  // s, of what turns with the shaft
-constexpr double kTick = 0.1;            // s, as the node ticks at least
-constexpr double kSample = 0.1;          // s, simulated, of what is drawn
+constexpr double kMaxWindow = 20.0;  // s, of what turns with the shaft
+constexpr double kTick = 0.1;        // s, as the node ticks at least
+constexpr double kSample = 0.1;      // s, simulated, of what is drawn
 constexpr double kSilence = 600.0;   // s: a longer one is a clock that was set, or two recordings
 constexpr int kBelievedAstray = 10;  // events
 
@@ -38,7 +37,7 @@ class LastTurns {
       kept_.clear();
     }
     kept_.push_back(whirl);
-    while (kept_.size() > kMostDrawn || whirl.shaft_angle - kept_.front().shaft_angle > turns) {
+    while (kept_.size() > kMaxDrawn || whirl.shaft_angle - kept_.front().shaft_angle > turns) {
       kept_.pop_front();
     }
   }
@@ -46,7 +45,7 @@ class LastTurns {
   /// Less its mean; empty where the shaft has not turned once, or samples are too far apart.
   std::vector<state::WhirlState> orbit() const {
     if (kept_.empty() || !(kept_.back().shaft_angle - kept_.front().shaft_angle >= kTwoPi) ||
-        kept_.size() < kFewestDrawn) {
+        kept_.size() < kMinDrawn) {
       return {};
     }
     std::vector<state::WhirlState> orbit(kept_.begin(), kept_.end());
@@ -64,7 +63,7 @@ class LastTurns {
 
  private:
   static constexpr double kDrawnTurns = 5.0;
-  static constexpr std::size_t kMostDrawn = 4096, kFewestDrawn = 32;
+  static constexpr std::size_t kMaxDrawn = 4096, kMinDrawn = 32;
   std::deque<state::WhirlState> kept_;
 };
 
@@ -102,7 +101,7 @@ class Replay {
     started_ = true;
     newest_stamp_ = at;
     if (silence < 0.0 || silence > kSilence) {
-      return;  // the clock was set, or another recording begins: time goes on from here
+      return;  // the clock was set, or another recording begins: time continues from here
     }
     const double until = wall_ + silence;
     while (until - ticked_ >= kTick) {
@@ -223,7 +222,7 @@ class Replay {
       return;
     }
     if (!orders.time.empty() && time <= orders.time.back() &&
-        time > orders.time.back() - kLongestWindow) {
+        time > orders.time.back() - kMaxWindow) {
       return;  // from a longer window than the one before: it says nothing new
     }
     const auto place = static_cast<std::size_t>(first - told.order.begin());
@@ -271,7 +270,7 @@ class Replay {
     }
   }
 
-  /// A reason goes on while it is of the same kind: how long nothing has come changes.
+  /// A reason continues while it is of the same kind: the duration of a timeout changes.
   void keepNotOk() {
     const std::vector<std::string> why = monitor_.notOk(ticked_, paused_);
     for (std::size_t i = 0; i < why.size(); ++i) {
@@ -372,13 +371,13 @@ MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
   replay.finish();
   if (std::all_of(run.systems.begin(), run.systems.end(),
                   [](const SystemCourse& course) { return course.states == 0; })) {
-    throw Refusal(
+    throw InputError(
         fmt::format("{}: must have states of the systems of '{}' on channels that begin with {} "
                     "(--lcm-prefix), {}",
                     log, scene.scene.name, prefix, foundElsewhere(read)));
   }
   if (spectrum_at && !(*spectrum_at >= run.begin && *spectrum_at <= run.end)) {
-    throw Refusal(
+    throw InputError(
         fmt::format("--spectrum-at: expected a time within the log, {:g} to {:g} s, "
                     "found {:g} s",
                     run.begin, run.end, *spectrum_at));

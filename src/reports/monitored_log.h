@@ -13,8 +13,8 @@
 #include "monitoring/alarm_settings.h"
 #include "plots/chart.h"
 #include "reports/csv_table.h"
-#include "reports/passed_resonance.h"
 #include "scene/built_scene.h"
+#include "signal/passed_resonance.h"
 #include "signal/spectrum_cascade.h"
 #include "transport/logged_messages.h"
 
@@ -31,9 +31,8 @@ struct AlertCourse {
 
 /// For how long what came from a system could not be judged.
 struct NotOkCourse {
-  std::string why;  ///< as told last
-  double begin =
-      0.0;  ///< [s], simulated, of the newest state when it was told: to a tenth of a second
+  std::string why;     ///< as published last
+  double begin = 0.0;  ///< [s], simulated, of the newest state when it was published, to 0.1 s
   double end = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: so it was at the end
 };
 
@@ -41,8 +40,8 @@ struct NotOkCourse {
 struct SystemCourse {
   std::string name;
   bool rotor = false;
-  bool modelled = false;  ///< states of the twin have come, besides what was measured
-  std::optional<OrderVector> slow_roll;  ///< taken off what was measured
+  bool modelled = false;  ///< states of the twin were received, beside the measurements
+  std::optional<OrderVector> slow_roll;  ///< subtracted from the measurements
   OrderCourse orders;
   std::vector<NotOkCourse> not_ok;
   std::vector<PassedResonance> resonances;  ///< that its run-ups and run-downs have passed
@@ -50,7 +49,7 @@ struct SystemCourse {
   std::optional<WindowSpectrum> spectrum;   ///< at the end, or where it was asked for
   /// The last turns of that window, of the shaft's middle less its mean in them; at most five.
   std::vector<state::WhirlState> orbit;
-  std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< by the model, as told last
+  std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< of the model, as published last
   std::vector<double> time;                                 ///< [s], simulated
   std::vector<double> speed;  ///< [rad/s], of its shaft; NaN without one
   /// [m], the largest distance from the middle of the orbit since the value before; of rotors.
@@ -70,7 +69,7 @@ struct MonitoredLog {
   double begin = 0.0, end = 0.0;  ///< [s], simulated: earliest and latest of what was watched
   double duration = 0.0;          ///< [s], by the stamps of the log, without silences beyond 10 min
   std::uint64_t watched = 0;      ///< messages that the monitor took
-  std::uint64_t rejected = 0;     ///< that could not be meant, or do not fit the scene
+  std::uint64_t rejected = 0;     ///< that are invalid, or do not fit the scene
   std::uint64_t damaged = 0;      ///< places of the log that are no event
   std::string first_damage;       ///< where, and what; "": none
   std::uint64_t resets = 0;       ///< of simulated time
@@ -81,7 +80,7 @@ struct MonitoredLog {
 /// Replays the log of a twin whose channels begin with `prefix`; the monitor's wall time is that of
 /// the log's stamps. advanced(bytes, of_bytes) is called now and then.
 /// @param spectrum_at [s], simulated, where the window of the full spectrum ends; none: at the end
-/// Throws Refusal for a file that cannot be read, or holds no states of the scene's systems, or
+/// Throws InputError for a file that cannot be read, or holds no states of the scene's systems, or
 /// none at that time.
 MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
                         const std::string& log, const std::string& prefix,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "reports/monitored_log.h"
+#include "reports/report_values.h"
 #include "reports/spectrum_figures.h"
 
 namespace whirl_twin {
@@ -68,15 +69,9 @@ std::string notOkText(const SystemCourse& system) {
 }
 
 Json notOkJson(const SystemCourse& system) {
-  Json all = Json::array();
-  for (const NotOkCourse& course : system.not_ok) {
-    all.push_back({{"why", course.why}, {"begin", course.begin}, {"end", course.end}});
-  }
-  return all;
-}
-
-Json optionalJson(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
+  return listJson(system.not_ok, [](const NotOkCourse& course) -> Json {
+    return {{"why", course.why}, {"begin", course.begin}, {"end", course.end}};
+  });
 }
 
 Json resonanceJson(const PassedResonance& resonance) {
@@ -84,9 +79,9 @@ Json resonanceJson(const PassedResonance& resonance) {
   return {{"time", peak.time},
           {"speed", peak.speed},
           {"amplitude", peak.amplitude},
-          {"half_power_below", optionalJson(peak.lower)},
-          {"half_power_above", optionalJson(peak.upper)},
-          {"amplification_factor", optionalJson(peak.amplification_factor)},
+          {"half_power_below", peak.lower},
+          {"half_power_above", peak.upper},
+          {"amplification_factor", peak.amplification_factor},
           {"acceleration", peak.acceleration},
           {"slow", peak.slow},
           {"model_critical_speed", resonance.model_speed},
@@ -118,10 +113,6 @@ const char* severityName(state::Severity severity) {
     default:
       return "info";
   }
-}
-
-Json textOrNull(const std::string& text) {
-  return text.empty() ? Json() : Json(text);
 }
 
 }  // namespace
@@ -170,18 +161,11 @@ std::string text(const MonitoredLog& run) {
 }
 
 Json json(const MonitoredLog& run) {
-  Json json;
-  json["log"] = run.log;
-  json["scene"] = run.scene;
-  json["begin"] = run.begin;
-  json["end"] = run.end;
-  json["duration"] = run.duration;
-  json["messages"] = run.watched;
-  json["rejected"] = run.rejected;
-  json["damaged"] = run.damaged;
-  json["first_damage"] = run.first_damage;
-  json["resets"] = run.resets;
-  json["systems"] = Json::object();
+  Json json{
+      {"log", run.log},           {"scene", run.scene},       {"begin", run.begin},
+      {"end", run.end},           {"duration", run.duration}, {"messages", run.watched},
+      {"rejected", run.rejected}, {"damaged", run.damaged},   {"first_damage", run.first_damage},
+      {"resets", run.resets},     {"systems", Json::object()}};
   for (const SystemCourse& system : run.systems) {
     json["systems"][system.name] = {{"states", system.states},
                                     {"verdicts", system.margin_time.size()},
@@ -192,10 +176,7 @@ Json json(const MonitoredLog& run) {
                                     {"not_ok", notOkJson(system)}};
     Json& of_it = json["systems"][system.name];
     if (system.rotor) {
-      of_it["resonances"] = Json::array();
-      for (const PassedResonance& resonance : system.resonances) {
-        of_it["resonances"].push_back(resonanceJson(resonance));
-      }
+      of_it["resonances"] = listJson(system.resonances, resonanceJson);
       if (system.slow_roll) {
         of_it["slow_roll"] = {{"forward", std::abs(system.slow_roll->forward)},
                               {"forward_lag", system.slow_roll->forwardLag()},

@@ -7,9 +7,10 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -85,6 +86,17 @@ void PendingFile::complete() {
     throw RunFailure(fmt::format("{}: cannot be written: {}", final_, std::strerror(errno)));
   }
   complete_ = true;
+}
+
+void writeFile(const std::string& path, const std::string& content) {
+  PendingFile pending(path);
+  std::ofstream file(pending.path(), std::ios::binary);
+  file << content;
+  file.close();
+  if (!file) {
+    throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  }
+  pending.complete();
 }
 
 }  // namespace whirl_twin

@@ -2,13 +2,45 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
+
+/// Null where there is none.
+template <class Value>
+struct nlohmann::adl_serializer<std::optional<Value>> {
+  template <class AnyJson>
+  static void to_json(AnyJson& json, const std::optional<Value>& value) {
+    json = value ? AnyJson(*value) : AnyJson();
+  }
+};
 
 namespace whirl_twin {
 
 /// Keys in the order they were put in; NaN and infinities are printed as null.
 using Json = nlohmann::ordered_json;
+
+/// An array of of(one) of each.
+template <class All, class Of>
+Json listJson(const All& all, const Of& of) {
+  Json list = Json::array();
+  for (const auto& one : all) {
+    list.push_back(of(one));
+  }
+  return list;
+}
+
+/// of(one) of each, one after the other.
+template <class All, class Of>
+std::string joined(const All& all, const Of& of, const char* separator = "") {
+  std::string text;
+  const char* before = "";
+  for (const auto& one : all) {
+    text += before + of(one);
+    before = separator;
+  }
+  return text;
+}
 
 /// Prints results on standard output, without what a terminal might obey (printableLines()). Throws
 /// RunFailure if they cannot be written.
@@ -42,5 +74,8 @@ class PendingFile {
   std::string written_;
   bool complete_ = false;
 };
+
+/// Writes a file that appears only when it is complete. Throws RunFailure.
+void writeFile(const std::string& path, const std::string& content);
 
 }  // namespace whirl_twin

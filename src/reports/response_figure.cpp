@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "algebra/constants.h"
-#include "reports/orbit_chart.h"
+#include "reports/report_values.h"
 #include "reports/response_report.h"
-#include "reports/table_speeds.h"
+#include "reports/rotor_outline.h"
 
 namespace whirl_twin {
 
@@ -22,12 +21,12 @@ constexpr double kNeedles = 0.125;  // of the range
 /// Some of the stations, evenly along the list: its first, its last and what lies between.
 std::vector<std::size_t> shownStations(const ResponseReport& r) {
   const std::size_t count = r.stations.size();
-  if (count <= kMostStationsDrawn) {
+  if (count <= kMaxStationsDrawn) {
     return r.stations;
   }
   std::vector<std::size_t> shown;
-  for (std::size_t i = 0; i < kMostStationsDrawn; ++i) {
-    shown.push_back(r.stations[i * (count - 1) / (kMostStationsDrawn - 1)]);
+  for (std::size_t i = 0; i < kMaxStationsDrawn; ++i) {
+    shown.push_back(r.stations[i * (count - 1) / (kMaxStationsDrawn - 1)]);
   }
   return shown;
 }
@@ -141,7 +140,7 @@ void cutFaint(std::vector<Series>& all) {
   }
   for (Series& series : all) {
     for (double& y : series.y) {
-      y = y < kFaintest * highest ? std::numeric_limits<double>::quiet_NaN() : y;
+      y = y < kFaintest * highest ? kNaN : y;
     }
   }
 }
@@ -157,14 +156,14 @@ std::string speedName(double speed) {
 /// Degrees from -90 to 270, broken where it passes from one end to the other.
 Series lagSeries(const ResponseReport& r, std::size_t station) {
   Series series;
-  double before = std::numeric_limits<double>::quiet_NaN();
+  double before = kNaN;
   for (const SynchronousResponse& response : r.sweep) {
     const double lag =
         phaseLag(response.orbits[station], r.system->dynamics->phaseMark()) * 180.0 / kPi;
     const double now = lag < -90.0 ? lag + 360.0 : lag;
     if (std::fabs(now - before) > 180.0) {
       series.x.push_back(response.speed);
-      series.y.push_back(std::numeric_limits<double>::quiet_NaN());
+      series.y.push_back(kNaN);
     }
     if (response.speed > 0.0) {
       series.x.push_back(response.speed);

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "algebra/constants.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
-#include "reports/table_speeds.h"
-#include "reports/verdict_text.h"
+#include "reports/report_values.h"
 
 namespace whirl_twin {
 
@@ -17,16 +17,15 @@ namespace {
 
 void requireForce(const RotorSystem& system) {
   if (!hasSynchronousForce(system.rotor)) {
-    throw Refusal(
+    throw InputError(
         fmt::format("{}: must have an unbalance or a bow, found a balanced rotor without response",
                     system.title()));
   }
 }
 
 Json orbitJson(const Orbit& orbit, double phase_mark) {
-  const auto part = [](const std::complex<double>& z) { return Json{z.real(), z.imag()}; };
-  return {{"x", part(orbit.x)},
-          {"y", part(orbit.y)},
+  return {{"x", complexJson(orbit.x)},
+          {"y", complexJson(orbit.y)},
           {"forward", std::abs(orbit.forward)},
           {"backward", std::abs(orbit.backward)},
           {"major", orbit.major()},
@@ -34,6 +33,13 @@ Json orbitJson(const Orbit& orbit, double phase_mark) {
           {"inclination", orbit.inclination()},
           {"direction", name(orbit.direction())},
           {"phase_lag", phaseLag(orbit, phase_mark)}};
+}
+
+/// Of a table: what it begins with, the orbit, and whether the speed is beyond the tables.
+Json orbitRow(const RotorSystem& system, Json row, const Orbit& orbit, double speed) {
+  row.update(orbitJson(orbit, system.dynamics->phaseMark()));
+  row["beyond_tables"] = !system.tables().covers(speed);
+  return row;
 }
 
 std::string orbitText(const std::string& start, const Orbit& orbit, double phase_mark,
@@ -65,16 +71,11 @@ ResponseReport responseReport(const RotorSystem& system, const SpeedRange& range
   requireForce(system);
   ResponseReport r;
   r.system = &system;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < system.stations.size(); ++i) {
-    names.push_back(system.stations[i].name);
-    if (!station || *station == names.back()) {
-      r.stations.push_back(i);
-    }
-  }
-  if (r.stations.empty()) {
-    throw Refusal(fmt::format("--station: no station '{}' on {}{}", *station, system.title(),
-                              hint(*station, names)));
+  if (station) {
+    r.stations = {system.stationNamed("--station", *station)};
+  } else {
+    r.stations.resize(system.stations.size());
+    std::iota(r.stations.begin(), r.stations.end(), 0);
   }
   r.sweep = synchronousSweep(system.rotor, system.stations, range.from, range.to, range.points);
   r.peaks = criticalSpeeds(*system.dynamics);
@@ -87,33 +88,31 @@ ResponseReport responseReport(const RotorSystem& system, const SpeedRange& range
 }
 
 Json json(const ResponseReport& r) {
-  Json json;
-  json["model"] = r.system->model;
-  json["phase_mark"] = r.system->dynamics->phaseMark();
-  json["unbalance_angle"] = r.system->dynamics->phaseMark();  // as scripts know it
   const DataSpeeds data = r.system->tables();
-  json["speeds"] = Json::array();
-  json["table_speeds"] = tableSpeedsJson(data);  // null: every speed
-  json["beyond_tables"] = Json::array();
+  const double phase_mark = r.system->dynamics->phaseMark();
+  std::vector<double> speeds;
   for (const SynchronousResponse& response : r.sweep) {
-    json["speeds"].push_back(response.speed);
-    json["beyond_tables"].push_back(!data.covers(response.speed));
+    speeds.push_back(response.speed);
   }
+  Json json{{"model", r.system->model},
+            {"phase_mark", phase_mark},
+            {"unbalance_angle", phase_mark},  // as scripts know it
+            {"speeds", speeds},
+            {"table_speeds", tableSpeedsJson(data)},  // null: every speed
+            {"beyond_tables", beyondJson(data, speeds)}};
   for (const std::size_t i : r.stations) {
-    Json list = Json::array();
-    for (const SynchronousResponse& response : r.sweep) {
-      list.push_back(orbitJson(response.orbits[i], r.system->dynamics->phaseMark()));
-    }
-    json["stations"][r.system->stations[i].name] = list;
+    json["stations"][r.system->stations[i].name] =
+        listJson(r.sweep, [&](const SynchronousResponse& response) {
+          return orbitJson(response.orbits[i], phase_mark);
+        });
   }
-  json["peaks"] = Json::array();
-  for (const CriticalSpeed& peak : r.peaks) {
-    json["peaks"].push_back({{"speed", peak.speed},
-                             {"major", peak.peak},
-                             {"direction", peak.forward ? "forward" : "backward"},
-                             {"amplification_factor", peak.amplification_factor},
-                             {"beyond_tables", !data.covers(peak.speed)}});
-  }
+  json["peaks"] = listJson(r.peaks, [&](const CriticalSpeed& peak) -> Json {
+    return {{"speed", peak.speed},
+            {"major", peak.peak},
+            {"direction", peak.forward ? "forward" : "backward"},
+            {"amplification_factor", peak.amplification_factor},
+            {"beyond_tables", !data.covers(peak.speed)}};
+  });
   return json;
 }
 
@@ -121,10 +120,9 @@ CsvTables tables(const ResponseReport& r) {
   CsvTable sweep{"", withOrbit({"station", "speed"})};
   for (const std::size_t i : r.stations) {
     for (const SynchronousResponse& response : r.sweep) {
-      Json row{{"station", r.system->stations[i].name}, {"speed", response.speed}};
-      row.update(orbitJson(response.orbits[i], r.system->dynamics->phaseMark()));
-      row["beyond_tables"] = !r.system->tables().covers(response.speed);
-      sweep.rows.push_back(row);
+      sweep.rows.push_back(
+          orbitRow(*r.system, {{"station", r.system->stations[i].name}, {"speed", response.speed}},
+                   response.orbits[i], response.speed));
     }
   }
   return {sweep,
@@ -162,7 +160,7 @@ std::string text(const ResponseReport& r) {
 OrbitReport orbitReport(const RotorSystem& system, double speed) {
   requireForce(system);
   if (!(speed >= 0.0 && std::isfinite(speed))) {
-    throw Refusal(fmt::format("--speed: expected a shaft speed >= 0 rad/s, found {:g}", speed));
+    throw InputError(fmt::format("--speed: expected a shaft speed >= 0 rad/s, found {:g}", speed));
   }
   return {&system, synchronousResponse(system.rotor, system.stations, speed)};
 }
@@ -184,10 +182,9 @@ CsvTables tables(const OrbitReport& r) {
   CsvTable orbits{"", withOrbit({"station", "position"})};
   for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
     const Station& station = r.system->stations[i];
-    Json row{{"station", station.name}, {"position", station.position}};
-    row.update(orbitJson(r.response.orbits[i], r.system->dynamics->phaseMark()));
-    row["beyond_tables"] = !r.system->tables().covers(r.response.speed);
-    orbits.rows.push_back(row);
+    orbits.rows.push_back(orbitRow(*r.system,
+                                   {{"station", station.name}, {"position", station.position}},
+                                   r.response.orbits[i], r.response.speed));
   }
   return {orbits};
 }

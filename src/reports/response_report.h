@@ -1,4 +1,5 @@
-// What `twin response` and `twin orbit` show of one rotor.
+// What `twin response` and `twin orbit` show of one rotor: its unbalance response, or receptances
+// and mobilities from a harmonic force that does not turn with the shaft.
 #pragma once
 
 #include <optional>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "analysis/critical_speeds.h"
+#include "analysis/frequency_response.h"
 #include "analysis/synchronous_response.h"
 #include "plots/chart.h"
 #include "reports/csv_table.h"
@@ -20,13 +22,13 @@ struct ResponseReport {
   std::vector<CriticalSpeed> peaks;  ///< at the published station, within the range
 };
 
-/// Throws Refusal for an unknown station and for a rotor without anything that turns.
+/// Throws InputError for an unknown station and for a rotor without anything that turns.
 ResponseReport responseReport(const RotorSystem& system, const SpeedRange& range,
                               const std::optional<std::string>& station);
 
 Json json(const ResponseReport& report);
 std::string text(const ResponseReport& report);
-/// Every speed that was looked at, at each station; peaks.
+/// Every speed of the sweep, at each station; peaks.
 CsvTables tables(const ResponseReport& report);
 /// Bode plot, amplitude and phase lag over speed, and polar plot below.
 Figure figure(const ResponseReport& report);
@@ -42,5 +44,34 @@ Json json(const OrbitReport& report);
 std::string text(const OrbitReport& report);
 CsvTables tables(const OrbitReport& report);
 Figure figure(const OrbitReport& report);
+
+struct ForcedRequest {
+  std::string force;               ///< the station that it acts at
+  std::string along = "x";         ///< or y
+  std::vector<std::string> at;     ///< stations that respond; none: the one of the force
+  std::optional<double> speed;     ///< [rad/s]; none: the drive's highest
+  std::optional<double> from, to;  ///< [rad/s]; none: from 0 to a little beyond the sixth mode
+  int points = 200;
+};
+
+struct ForcedReport {
+  const RotorSystem* system = nullptr;
+  ForcedRequest request;
+  double speed = 0.0;                 ///< [rad/s]
+  std::vector<std::size_t> stations;  ///< that respond, places among RotorSystem's
+  std::vector<ForcedResponse> sweep;
+  bool grows = false;  ///< a mode is unstable at this speed: the response is never reached
+};
+
+/// Of the full-order model, also where the simulation uses a reduced one. Throws InputError for
+/// stations that are not there, and numbers out of range.
+ForcedReport forcedReport(const RotorSystem& system, const ForcedRequest& request);
+
+Json json(const ForcedReport& report);
+std::string text(const ForcedReport& report);
+/// Every frequency at each station.
+CsvTables tables(const ForcedReport& report);
+/// Receptance, mobility and phase along the force.
+Figure figure(const ForcedReport& report);
 
 }  // namespace whirl_twin

@@ -9,9 +9,11 @@
 #include <fstream>
 #include <functional>
 #include <toml.hpp>
+#include <tuple>
+#include <utility>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -49,20 +51,20 @@ nlohmann::json jsonOf(const toml::value& value) {
 nlohmann::json treeOf(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in || !std::filesystem::is_regular_file(path)) {
-    throw Refusal(path + ": cannot be read; must be a rotor saved by ROSS");
+    throw InputError(path + ": cannot be read; must be a rotor saved by ROSS");
   }
   try {
     nlohmann::json tree = std::filesystem::path(path).extension() == ".json"
                               ? nlohmann::json::parse(in)
                               : jsonOf(toml::parse(in, path));
     if (!tree.is_object()) {
-      throw Refusal(path + ": must be a rotor saved by ROSS, found a list or a value");
+      throw InputError(path + ": must be a rotor saved by ROSS, found a list or a value");
     }
     return tree;
   } catch (const nlohmann::json::exception& error) {
-    throw Refusal(fmt::format("{}: must be JSON: {}", path, error.what()));
+    throw InputError(fmt::format("{}: must be JSON: {}", path, error.what()));
   } catch (const toml::exception& error) {
-    throw Refusal(
+    throw InputError(
         fmt::format("{}: must be TOML, found an error in line {}", path, error.location().line()));
   }
 }
@@ -78,8 +80,8 @@ bool RossEntry::isDisc() const {
   return is("DiskElement") || (like_one && !is("ShaftElement") && !is("CouplingElement"));
 }
 
-RossFile::RossFile(const std::string& path, Complaints& complaints)
-    : tree_(treeOf(path)), complaints_(complaints) {
+RossFile::RossFile(const std::string& path, Diagnostics& diagnostics)
+    : tree_(treeOf(path)), diagnostics_(diagnostics) {
   for (const auto& [key, value] : tree_.items()) {
     const std::size_t bar = key.find('_');
     if (value.is_object() && bar != std::string::npos && bar > 0) {
@@ -102,9 +104,9 @@ double RossFile::number(const nlohmann::json& fields, const std::string& where, 
   }
   const bool given = found != fields.end() && !found->is_null();
   if (given || !fallback) {
-    complaints_.add(fmt::format("{}.{}", where, name),
-                    fmt::format("must be a number{}{}, found {}", *unit == '\0' ? "" : " in ", unit,
-                                given ? printable(found->dump()) : "nothing"));
+    diagnostics_.add(fmt::format("{}.{}", where, name),
+                     fmt::format("must be a number{}{}, found {}", *unit == '\0' ? "" : " in ",
+                                 unit, given ? printable(found->dump()) : "nothing"));
   }
   return fallback.value_or(0.0);
 }
@@ -118,8 +120,8 @@ int RossFile::node(const RossEntry& entry, const char* name) {
   const double value = number(entry, name, "");
   const bool sound = value >= 0.0 && value < 1.0e6 && value == std::floor(value);
   if (!sound) {
-    complaints_.add(fmt::format("{}.{}", entry.key, name),
-                    fmt::format("must be the number of a node, found {}", value));
+    diagnostics_.add(fmt::format("{}.{}", entry.key, name),
+                     fmt::format("must be the number of a node, found {}", value));
   }
   return sound ? static_cast<int>(value) : 0;
 }
@@ -141,7 +143,7 @@ std::pair<double, double> RossFile::mass(const RossEntry& entry) {
 RossMaterial RossFile::material(const RossEntry& entry) {
   const auto found = entry.fields->find("material");
   if (found == entry.fields->end() || !found->is_object()) {
-    complaints_.add(entry.key + ".material", "must be a table with rho, E and G_s");
+    diagnostics_.add(entry.key + ".material", "must be a table with rho, E and G_s");
     return {};
   }
   const std::string where = entry.key + ".material";
@@ -165,7 +167,7 @@ std::vector<double> RossFile::coefficient(const RossEntry& entry, const std::str
                         std::all_of(value.begin(), value.end(),
                                     [](const nlohmann::json& one) { return one.is_number(); });
     if (!is_row && !value.is_number()) {
-      complaints_.add(
+      diagnostics_.add(
           where, axes.frequencies.empty() || !value.is_array()
                      ? fmt::format("must be numbers, found {}", printable(value.dump()))
                      : fmt::format("must have {} rows of {} numbers, as speed and frequency have",
@@ -179,7 +181,7 @@ std::vector<double> RossFile::coefficient(const RossEntry& entry, const std::str
     values.resize(axes.count(), values.front());
   }
   if (values.size() != axes.count()) {
-    complaints_.add(
+    diagnostics_.add(
         where,
         axes.places.empty()
             ? fmt::format("must be one number without speed or frequency, found {}", values.size())
@@ -211,7 +213,7 @@ std::vector<double> RossFile::numbers(const RossEntry& entry, const char* name) 
   own.places.resize(found->is_array() ? found->size() : 1);
   std::vector<double> values = coefficient(entry, name, own);
   if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) != values.end()) {
-    complaints_.add(fmt::format("{}.{}", entry.key, name), "must increase");
+    diagnostics_.add(fmt::format("{}.{}", entry.key, name), "must increase");
   }
   return values;
 }
@@ -230,6 +232,38 @@ RossAxes RossFile::axes(const RossEntry& entry) {
     axes.frequencies = std::move(frequencies);
   }
   return axes;
+}
+
+RossCoupling rossCoupling(RossFile& file, const RossEntry& entry, int node) {
+  RossCoupling coupling;
+  coupling.row.emplace_back("element", std::to_string(node));
+  for (const auto& [kind, ours, unit] :
+       {std::tuple{"kt", "lateral_stiffness", "N/m"}, std::tuple{"kr", "bending_stiffness", "N m"},
+        std::tuple{"ct", "lateral_damping", "N s/m"},
+        std::tuple{"cr", "bending_damping", "N m s"}}) {
+    const double along_x = file.number(entry, fmt::format("{}_x", kind).c_str(), unit, 0.0);
+    coupling.row.emplace_back(ours, drawn(along_x));
+    if (file.number(entry, fmt::format("{}_y", kind).c_str(), unit, 0.0) != along_x) {
+      coupling.left_out.push_back(
+          fmt::format("{0}: {1}_y differs from {1}_x, which is used", entry.key, kind));
+    }
+    if (file.number(entry, fmt::format("{}_z", kind).c_str(), unit, 0.0) != 0.0) {
+      coupling.left_out.push_back(
+          fmt::format("{}: {}_z, along or about the shaft", entry.key, kind));
+    }
+  }
+  for (const auto& [end, at] : {std::pair{"l", node}, std::pair{"r", node + 1}}) {
+    const auto of = [&file, &entry, side = end](const char* name, const char* unit) {
+      return file.number(entry, fmt::format("{}_{}", name, side).c_str(), unit, 0.0);
+    };
+    const double polar = of("Ip", "kg m^2");
+    const double across = of("Id", "kg m^2");
+    coupling.hubs.push_back({{"node", std::to_string(at)},
+                             {"mass", drawn(of("m", "kg"))},
+                             {"polar_inertia", drawn(polar)},
+                             {"transverse_inertia", drawn(across != 0.0 ? across : 0.5 * polar)}});
+  }
+  return coupling;
 }
 
 }  // namespace whirl_twin

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "reports/rotor_drawing.h"
 #include "scene/node_reader.h"
 
 namespace whirl_twin {
@@ -43,11 +44,11 @@ struct RossAxes {
   std::size_t count() const { return places.empty() ? 1 : places.size(); }
 };
 
-/// What is not as it must be is added to the complaints, and is 0.
+/// What is not as it must be is added to the diagnostics, and is 0.
 class RossFile {
  public:
-  /// Throws Refusal for what is no such file.
-  RossFile(const std::string& path, Complaints& complaints);
+  /// Throws InputError for what is no such file.
+  RossFile(const std::string& path, Diagnostics& diagnostics);
   RossFile(const RossFile&) = delete;
   RossFile& operator=(const RossFile&) = delete;
 
@@ -79,7 +80,16 @@ class RossFile {
 
   nlohmann::json tree_;
   std::vector<RossEntry> entries_;
-  Complaints& complaints_;
+  Diagnostics& diagnostics_;
 };
+
+struct RossCoupling {
+  DrawnRow row;                ///< of couplings
+  std::vector<DrawnRow> hubs;  ///< of discs, at its two nodes
+  std::vector<std::string> left_out;
+};
+
+/// The one from `node` to the next, whose element has the same number.
+RossCoupling rossCoupling(RossFile& file, const RossEntry& entry, int node);
 
 }  // namespace whirl_twin

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "messages/names.h"
-#include "reports/ross_coupling.h"
 #include "reports/ross_file.h"
 #include "reports/rotor_drawing.h"
 #include "scene/scene_error.h"
@@ -27,7 +26,7 @@ bool sameMaterial(const RossMaterial& a, const RossMaterial& b) {
 
 class RossReader {
  public:
-  explicit RossReader(const std::string& path) : complaints_(path), file_(path, complaints_) {
+  explicit RossReader(const std::string& path) : diagnostics_(path), file_(path, diagnostics_) {
     drawing_.name = nameOf(path);
     drawing_.origin =
         fmt::format("A rotor of ROSS, from {}.", std::filesystem::path(path).filename().string());
@@ -39,8 +38,8 @@ class RossReader {
     readDiscs();
     readSupports();
     nameOthers();
-    if (!complaints_.all().empty()) {
-      throw SceneError(complaints_.all());
+    if (!diagnostics_.all().empty()) {
+      throw SceneError(diagnostics_.all());
     }
     return drawing_;
   }
@@ -114,7 +113,7 @@ class RossReader {
     const auto real =
         std::find_if(all.begin(), all.end(), [](const Layer& layer) { return !layer.coupling; });
     if (real == all.end()) {
-      complaints_.add("", "must have a ShaftElement, found none");
+      diagnostics_.add("", "must have a ShaftElement, found none");
       return;
     }
     const RossMaterial& shaft = real->material;
@@ -148,8 +147,8 @@ class RossReader {
 
   void takeNodes(const Layer& layer) {
     if (layer.node != last_node_) {
-      complaints_.add(layer.entry.key + ".n",
-                      fmt::format("must have a shaft element at node {}, found none", last_node_));
+      diagnostics_.add(layer.entry.key + ".n",
+                       fmt::format("must have a shaft element at node {}, found none", last_node_));
     }
     last_node_ = layer.node + 1;
   }
@@ -172,24 +171,20 @@ class RossReader {
     if (const std::string name = nameOfMaterial(layer, false); !name.empty()) {
       row.emplace_back("material", name);
     }
-    row.emplace_back("length", drawn(layer.length));
-    row.emplace_back("outer_diameter", drawn(layer.outer));
-    const bool tapers = layer.outer_end != layer.outer || layer.inner_end != layer.inner;
-    if (tapers) {
-      row.emplace_back("outer_diameter_end", drawn(layer.outer_end));
-    }
-    if (layer.inner != 0.0 || layer.inner_end != 0.0) {
-      row.emplace_back("inner_diameter", drawn(layer.inner));
-      if (tapers) {
-        row.emplace_back("inner_diameter_end", drawn(layer.inner_end));
+    const auto put = [&](const char* key, double value, bool needed) {
+      if (needed) {
+        row.emplace_back(key, drawn(value));
       }
-    }
-    if (layer.axial_force != 0.0) {
-      row.emplace_back("axial_force", drawn(layer.axial_force));
-    }
-    if (layer.torque != 0.0) {
-      row.emplace_back("torque", drawn(layer.torque));
-    }
+    };
+    const bool tapers = layer.outer_end != layer.outer || layer.inner_end != layer.inner;
+    const bool hollow = layer.inner != 0.0 || layer.inner_end != 0.0;
+    put("length", layer.length, true);
+    put("outer_diameter", layer.outer, true);
+    put("outer_diameter_end", layer.outer_end, tapers);
+    put("inner_diameter", layer.inner, hollow);
+    put("inner_diameter_end", layer.inner_end, hollow && tapers);
+    put("axial_force", layer.axial_force, layer.axial_force != 0.0);
+    put("torque", layer.torque, layer.torque != 0.0);
     drawing_.elements.push_back(row);
   }
 
@@ -338,7 +333,7 @@ class RossReader {
     drawing_.bearings.push_back(row);
   }
 
-  /// What an element stands on: n_link is the node of a mass, which the support of that node holds.
+  /// Pedestals: n_link is the node of a mass, which the support of that node holds.
   void addPedestals(const RossEntry& bearing, int of_node) {
     const RossEntry* above = &bearing;
     for (std::size_t i = 0; i < file_.entries().size();
@@ -384,7 +379,7 @@ class RossReader {
     }
   }
 
-  Complaints complaints_;
+  Diagnostics diagnostics_;
   RossFile file_;
   RotorDrawing drawing_;
   std::map<std::string, RossMaterial> materials_;

@@ -1,3 +1,4 @@
+// The scene of a drawn rotor; elements of a shaft from a table of comma-separated values.
 #include "reports/rotor_drawing.h"
 
 #include <fmt/format.h>
@@ -5,26 +6,27 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
+
+#include "messages/input_error.h"
+#include "messages/names.h"
+#include "messages/units.h"
+#include "reports/output.h"
+#include "scene/csv_columns.h"
+#include "scene/node_reader.h"
+#include "scene/scene_error.h"
 
 namespace whirl_twin {
 
 namespace {
 
-std::string drawnRowText(const DrawnRow& row) {
-  std::string all;
-  for (const auto& [key, value] : row) {
-    all += fmt::format("{}{}: {}", all.empty() ? "" : ", ", key, value);
-  }
-  return all;
-}
-
 /// A table of the parameters; nothing of one without rows.
 std::string tableText(const std::string& name, const std::vector<DrawnRow>& rows) {
-  std::string out = rows.empty() ? "" : fmt::format("      {}:\n", name);
-  for (const DrawnRow& row : rows) {
-    out += fmt::format("        - {{{}}}\n", drawnRowText(row));
-  }
-  return out;
+  const auto cell = [](const DrawnRow::value_type& of) { return of.first + ": " + of.second; };
+  return (rows.empty() ? "" : fmt::format("      {}:\n", name)) +
+         joined(rows, [&](const DrawnRow& row) {
+           return "        - {" + joined(row, cell, ", ") + "}\n";
+         });
 }
 
 std::vector<DrawnRow> counted(const std::vector<DrawnRow>& elements) {
@@ -46,6 +48,43 @@ std::vector<DrawnRow> counted(const std::vector<DrawnRow>& elements) {
   return rows;
 }
 
+constexpr double kSteelModulus = 2.1e11;  // Pa
+constexpr double kSteelDensity = 7850.0;  // kg/m^3
+const std::vector<std::string> kLengths = {"length", "outer_diameter", "outer_diameter_end",
+                                           "inner_diameter", "inner_diameter_end"};
+
+struct Column {
+  std::string name;
+  double scale = 1.0;  ///< of the unit, in SI
+};
+
+/// "outer_diameter (mm)", "length [in]", "count".
+Column columnOf(const std::string& heading, Diagnostics& diagnostics) {
+  const std::size_t bracket = heading.find_first_of("([");
+  const std::string bare = heading.substr(0, bracket);
+  Column column{bare.substr(0, bare.find_last_not_of(' ') + 1)};
+  std::vector<std::string> known = kLengths;
+  known.insert(known.end(), {"axial_force", "count"});
+  if (std::find(known.begin(), known.end(), column.name) == known.end()) {
+    diagnostics.add(fmt::format("column '{}'", printable(heading)),
+                    "is not a column of shaft elements" + hint(column.name, known));
+    return column;
+  }
+  if (bracket != std::string::npos) {
+    const std::string unit =
+        heading.substr(bracket + 1, heading.find_first_of(")]", bracket) - bracket - 1);
+    const std::string wanted = column.name == "axial_force" ? "N"
+                               : column.name == "count"     ? "-"
+                                                            : "m";
+    column.scale = unitScale(unit, wanted);
+    if (column.scale == 0.0) {
+      diagnostics.add(fmt::format("column '{}'", printable(heading)),
+                      fmt::format("must be in {} or a convertible unit", wanted));
+    }
+  }
+  return column;
+}
+
 }  // namespace
 
 std::string drawn(double value) {
@@ -63,10 +102,8 @@ std::string nameOf(const std::string& path) {
 std::string sceneText(const RotorDrawing& drawing) {
   std::string out = fmt::format("# {}\n", drawing.origin);
   if (!drawing.left_out.empty()) {
-    out += "#\n# Not carried over:\n";
-    for (const std::string& line : drawing.left_out) {
-      out += fmt::format("# - {}\n", line);
-    }
+    out += "#\n# Not carried over:\n" +
+           joined(drawing.left_out, [](const auto& line) { return "# - " + line + "\n"; });
   }
   out += fmt::format(
       "name: {}\nstep: 0.001                   # s\nsystems:\n  rotor:\n    model: flexible_rotor\n"
@@ -86,16 +123,68 @@ std::string sceneText(const RotorDrawing& drawing) {
   if (!drawing.shear_deformation) {
     out += "      shear_deformation: false\n";
   }
-  out += tableText("materials", drawing.materials);
-  out += tableText("elements", counted(drawing.elements));
-  out += tableText("couplings", drawing.couplings);
-  out += tableText("sleeves", drawing.sleeves);
-  out += tableText("discs", drawing.discs);
-  out += tableText("bearings", drawing.bearings);
-  out += tableText("bearing_tables", drawing.bearing_tables);
-  out += tableText("pedestals", drawing.pedestals);
-  out += tableText("pedestal_tables", drawing.pedestal_tables);
+  for (const auto& [name, rows] :
+       {std::pair("materials", drawing.materials), std::pair("elements", counted(drawing.elements)),
+        std::pair("couplings", drawing.couplings), std::pair("sleeves", drawing.sleeves),
+        std::pair("discs", drawing.discs), std::pair("bearings", drawing.bearings),
+        std::pair("bearing_tables", drawing.bearing_tables),
+        std::pair("pedestals", drawing.pedestals),
+        std::pair("pedestal_tables", drawing.pedestal_tables)}) {
+    out += tableText(name, rows);
+  }
   return out;
+}
+
+RotorDrawing drawingOfElements(const std::string& path) {
+  std::ifstream in(path);
+  if (!in || !std::filesystem::is_regular_file(path)) {
+    throw InputError(path + ": cannot be read; must be a table of elements");
+  }
+  Diagnostics diagnostics(path);
+  std::string line;
+  std::getline(in, line);
+  std::vector<Column> columns;
+  for (const std::string& heading : csvCells(line)) {
+    columns.push_back(columnOf(heading, diagnostics));
+  }
+  for (const char* needed : {"length", "outer_diameter"}) {
+    if (std::none_of(columns.begin(), columns.end(),
+                     [&](const Column& column) { return column.name == needed; })) {
+      diagnostics.add("", fmt::format("the first line must name a column '{}'", needed));
+    }
+  }
+  RotorDrawing drawing;
+  drawing.name = nameOf(path);
+  drawing.origin = fmt::format("Elements of {}, of steel; its discs and bearings are to be added.",
+                               std::filesystem::path(path).filename().string());
+  drawing.youngs_modulus = kSteelModulus;
+  drawing.density = kSteelDensity;
+  for (std::size_t number = 2; std::getline(in, line); ++number) {
+    const std::vector<std::string> values = csvCells(line);
+    if (values.size() == 1 && values[0].empty()) {
+      continue;
+    }
+    DrawnRow row;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const std::string text = i < values.size() ? values[i] : "";
+      const std::optional<double> value = parseNumber(text);
+      if (value) {
+        row.emplace_back(columns[i].name, drawn(*value * columns[i].scale));
+      } else if (!text.empty() || columns[i].name == "length" ||
+                 columns[i].name == "outer_diameter") {
+        diagnostics.add(fmt::format("line {}: {}", number, columns[i].name),
+                        fmt::format("must be a number, found {}", inQuotes(text)));
+      }
+    }
+    drawing.elements.push_back(row);
+  }
+  if (drawing.elements.empty()) {
+    diagnostics.add("", "has no elements");
+  }
+  if (!diagnostics.all().empty()) {
+    throw SceneError(diagnostics.all());
+  }
+  return drawing;
 }
 
 }  // namespace whirl_twin

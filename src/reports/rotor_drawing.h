@@ -13,7 +13,7 @@ using DrawnRow = std::vector<std::pair<std::string, std::string>>;
 
 struct RotorDrawing {
   std::string name;                     ///< of the scene
-  std::string origin;                   ///< where it comes from, in words
+  std::string origin;                   ///< where it comes from
   double youngs_modulus = 0.0;          ///< [Pa], of the shaft
   double shear_modulus = 0.0;           ///< [Pa]; 0: by Poisson's ratio
   double density = 0.0;                 ///< [kg/m^3]
@@ -39,13 +39,13 @@ std::string nameOf(const std::string& path);
 
 /// Of a file of ROSS (Rotor.save(): .toml, or .json) with shaft elements and their layers,
 /// couplings, discs, point masses, bearings and seals by coefficients, constant or over speed, and
-/// supports below them. Throws Refusal: "FILE: ENTRY.KEY: what was expected, what was found", all
-/// at once.
+/// supports below them. Throws InputError: "FILE: ENTRY.KEY: what was expected, what was found",
+/// all at once.
 RotorDrawing drawingOfRoss(const std::string& path);
 
 /// Of a table of elements from node 0 on (.csv), a row each, whose columns are those of `elements`
 /// in a scene, each with its unit behind it if it is not in SI: `length (mm),outer_diameter (mm)`.
-/// Steel, of 210 GPa and 7850 kg/m^3. Throws Refusal likewise, by line and column.
+/// Steel, of 210 GPa and 7850 kg/m^3. Throws InputError likewise, by line and column.
 RotorDrawing drawingOfElements(const std::string& path);
 
 }  // namespace whirl_twin

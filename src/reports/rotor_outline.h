@@ -1,9 +1,12 @@
 // A rotor from the side, as areas of a chart along its axis: shaft, sleeves, discs, and where its
-// bearings are.
+// bearings are; and orbits where they are along it.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "analysis/orbit.h"
+#include "mechanics/linear_rotor.h"
 #include "mechanics/rotors/rotor_assembly.h"
 #include "plots/chart.h"
 
@@ -24,5 +27,19 @@ std::vector<int> bearingNodes(const FlexibleShaft& shaft);
 
 /// Heights are radii times `scale`; `pale`: share of white, for what stands behind something else.
 std::vector<Series> rotorOutline(const FlexibleShaft& shaft, double scale, double pale);
+
+struct OrbitChart {
+  Chart chart;
+  bool along_shaft = false;  ///< else across it
+};
+
+/// The instant at which the shaft is drawn along the orbits: of a response as its phase mark passes
+/// x; of a mode, whose phase is nobody's, as the widest orbit is highest.
+enum class DrawnInstant { kPhaseMark, kWidestHighest };
+
+/// `orbits` at each of the stations, in `unit`: blue where they run with the rotation, vermilion
+/// where against it, and the shaft at one instant.
+OrbitChart orbitChart(const std::vector<Orbit>& orbits, const std::vector<Station>& stations,
+                      const std::string& unit, DrawnInstant instant);
 
 }  // namespace whirl_twin

@@ -1,15 +1,12 @@
-#include "reports/rotor_plots.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "algebra/constants.h"
 #include "analysis/critical_speeds.h"
-#include "reports/history_chart.h"
+#include "reports/system_plots.h"
 #include "scene/held_rotor.h"
 
 namespace whirl_twin {
@@ -37,7 +34,7 @@ double fastestOf(const PlotHistory& history) {
   return fastest;
 }
 
-/// The lag goes on from one sample to the next; NaN where it slips by more than a quarter in a turn
+/// The lag, unwrapped from sample to sample; NaN where it slips by more than a quarter in a turn
 /// of the shaft, so that the whirl does not go along with it, and where that hardly turns.
 std::vector<double> heldLag(const PlotHistory& history) {
   std::vector<double> lag = history.whirl_phase;
@@ -75,8 +72,7 @@ void leaveOutShort(std::vector<double>& values) {
     }
     if (end - i < values.size() / kParts) {
       std::fill(values.begin() + static_cast<std::ptrdiff_t>(i),
-                values.begin() + static_cast<std::ptrdiff_t>(end),
-                std::numeric_limits<double>::quiet_NaN());
+                values.begin() + static_cast<std::ptrdiff_t>(end), kNaN);
     }
     i = end + 1;
   }
@@ -248,7 +244,7 @@ std::vector<Chart> rotorCharts(const PlotHistory& history) {
 
 void markCriticalSpeeds(const BuiltSystem& system, const PlotHistory& history,
                         std::vector<Chart>& charts) {
-  constexpr std::size_t kMostPassages = 6;
+  constexpr std::size_t kMaxPassages = 6;
   constexpr double kApart = 0.15;  // of the run: nearer ones are one to name
   const bool held_by_control =
       std::any_of(history.commands.begin(), history.commands.end(),
@@ -258,10 +254,10 @@ void markCriticalSpeeds(const BuiltSystem& system, const PlotHistory& history,
   }
   for (const CriticalSpeed& critical : criticalSpeeds(*heldDynamics(system))) {
     const std::vector<double> times = passages(history, critical.speed);
-    if (times.size() > kMostPassages) {
+    if (times.size() > kMaxPassages) {
       continue;
     }
-    double named = -std::numeric_limits<double>::infinity();
+    double named = -kInfinity;
     for (const double time : times) {
       for (Chart& chart : charts) {
         chart.vertical.push_back({time, ""});

@@ -10,41 +10,68 @@
 
 #include "algebra/constants.h"
 #include "estimation/measured_queue.h"
-#include "messages/refusal.h"
-#include "reports/recorded_source.h"
+#include "messages/input_error.h"
+#include "messages/units.h"
 #include "scene/signal_names.h"
+#include "signal/recorded_signal.h"
 #include "transport/logged_messages.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kHalfPi = 0.5 * kPi;
-constexpr double kSteady = 0.01;          // of a speed
-constexpr double kPatience = 600.0;       // s, that samples wait for those of other sources
-constexpr double kLargestAngle = 1.0e15;  // rad; beyond, a double has no phase
+constexpr double kTogether = 1.0e-3;  // of a period: samples less apart are of one instant
+constexpr double kPatience = 600.0;   // s, that samples wait for those of other sources
+constexpr double kMaxAngle = 1.0e15;  // rad; beyond, a double has no phase
 
-/// The speed about which the most time was spent, of speeds above 0 and the times [s] spent at
-/// them.
-double longestKept(std::vector<std::pair<double, double>> dwells) {
-  std::sort(dwells.begin(), dwells.end());
-  double longest = 0.0, time = 0.0, moment = 0.0, speed = 0.0;
-  std::size_t first = 0;
-  for (const auto& [now, spent] : dwells) {
-    time += spent;
-    moment += spent * now;
-    while (dwells[first].first < now * (1.0 - kSteady)) {
-      time -= dwells[first].second;
-      moment -= dwells[first].second * dwells[first].first;
-      ++first;
+/// A source of probes and what the log has of it.
+struct RecordedSource {
+  const SensorSpec* spec = nullptr;
+  std::int64_t samples = 0;                 // each later than all before
+  std::int64_t first = 0, last = 0;         // [ns]
+  std::map<std::string, double> deviation;  // [m], of its channels, as in the first message
+  std::map<std::string, WildSamples> wild;  // of its channels
+
+  void take(const state::Measurement& message) {
+    if (samples == 0) {
+      first = last = message.instantOf(0);
+      for (std::size_t c = 0; c < message.channel.size(); ++c) {
+        deviation[message.channel[c]] = unitScale(message.unit[c], "m") * message.deviation[c];
+      }
     }
-    if (time > longest) {
-      longest = time;
-      speed = moment / time;
+    for (std::int64_t i = 0; i < message.samples; ++i) {
+      const std::int64_t instant = message.instantOf(i);
+      if (samples > 0 && instant <= last) {
+        continue;
+      }
+      ++samples;
+      last = instant;
+      for (std::size_t c = 0; c < message.channel.size(); ++c) {
+        const std::size_t at = static_cast<std::size_t>(i) * message.channel.size() + c;
+        const double value = unitScale(message.unit[c], "m") * message.value[at];
+        if (message.valid[at] != 0 && std::isfinite(value)) {
+          wild[message.channel[c]].take(instant, value);
+        }
+      }
     }
   }
-  return speed;
-}
+  double period() const {  // [s]
+    return static_cast<double>(last - first) * kNanosecond / static_cast<double>(samples - 1);
+  }
+  /// Its samples are those of the instants of the other.
+  bool isAtInstantsOf(const RecordedSource& other) const {
+    const double slack = kTogether * other.period() / kNanosecond;
+    return samples == other.samples &&
+           std::fabs(static_cast<double>(first - other.first)) < slack &&
+           std::fabs(static_cast<double>(last - other.last)) < slack;
+  }
+  std::string wildNote(const std::string& probe, const WildSamples& of) const {
+    return fmt::format(
+        "{}: {} implausible {} left out, the first {:.4g} s after the first sample, up to {:.3g} m",
+        probe, of.instants.size(), of.instants.size() == 1 ? "sample" : "samples",
+        kNanosecond * static_cast<double>(of.instants.front() - first), of.largest);
+  }
+};
 
 std::vector<RecordedProbe> probesOf(const SensorSpec& sensor, std::size_t system) {
   std::vector<RecordedProbe> probes;
@@ -75,6 +102,15 @@ std::string RecordCounts::pulseNote() const {
   return note;
 }
 
+void RecordCounts::addTo(Json& json, std::int64_t used) const {
+  json.update({{"samples", used},
+               {"samples_without_angle", no_angle},
+               {"values_not_valid", not_valid},
+               {"false_pulses", false_pulses},
+               {"missing_pulses", missing_pulses},
+               {"pulse_jitter", jitter}});
+}
+
 RotorRecord::RotorRecord(const BuiltScene& scene, const RotorSystem& system, const std::string& log,
                          const std::string& prefix, ProbesRead probes)
     : log_(log), prefix_(prefix) {
@@ -83,14 +119,14 @@ RotorRecord::RotorRecord(const BuiltScene& scene, const RotorSystem& system, con
     findWhirl(system);
   }
   if (probes_.empty()) {
-    throw Refusal(fmt::format(
+    throw InputError(fmt::format(
         "{}: must have displacement probes at '{}' and a keyphasor on its shaft, as `sensors` of "
         "the "
         "scene names them, or its whirl, on channels that begin with {} (--lcm-prefix); {}",
         log_, system.name, prefix_, foundElsewhere(eachMessage([](const Message&) {}))));
   }
   if (!(steady_speed_ > 0.0)) {
-    throw Refusal(fmt::format("{}: the shaft must rotate forward", log_));
+    throw InputError(fmt::format("{}: the shaft must rotate forward", log_));
   }
 }
 
@@ -103,15 +139,13 @@ LoggedMessages RotorRecord::eachMessage(const std::function<void(const Message&)
 
 /// Sources of probes at the rotor of which the log has samples, and a keyphasor.
 void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system, ProbesRead which) {
-  std::map<std::string, RecordedSource> sources, keyphasors;
-  std::size_t place = 0;
-  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
-    place = scene.systems[i]->spec.name == system.name ? i : place;
-  }
+  std::map<std::string, RecordedSource> sources;
+  std::map<std::string, KeyphasorSettings> keyphasors;
+  const std::size_t place = selectedSystems(scene.scene, system.name).front();
   const std::size_t drive = scene.scene.driveOf(scene.scene.systems[place]);
   for (const SensorSpec& sensor : scene.scene.sensors) {
     if (sensor.keyphasor && sensor.drive == drive) {
-      keyphasors[sensor.name].spec = &sensor;
+      keyphasors[sensor.name] = *sensor.keyphasor;
     } else if (!sensor.keyphasor && !probesOf(sensor, place).empty()) {
       sources[sensor.name].spec = &sensor;
     }
@@ -133,11 +167,9 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
         }
       }
     }
-    const auto found = sources.find(measured->source);
-    if (found == sources.end()) {
-      return;
+    if (const auto found = sources.find(measured->source); found != sources.end()) {
+      found->second.take(*measured);
     }
-    found->second.take(*measured);
   });
   const RecordedSource* best = nullptr;
   for (const auto& [name, source] : sources) {
@@ -180,7 +212,7 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
         probe.name = source->spec->name + "/" + probe.name;
       }
       if (found != source->wild.end() && !found->second.instants.empty()) {
-        notes_.push_back(found->second.note(probe.name, source->first));
+        notes_.push_back(source->wildNote(probe.name, found->second));
         for (const std::int64_t instant : found->second.instants) {
           wild_.emplace(probe.name, instant);
         }
@@ -188,19 +220,12 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
       probes_.push_back(std::move(probe));
     }
   }
-  keyphasor_ = *keyphasors[most->first].spec->keyphasor;
+  keyphasor_ = keyphasors[most->first];
   pulses_ = most->second;
-  std::vector<std::pair<double, double>> dwells;
-  for (std::size_t i = 1; i < pulses_.size(); ++i) {
-    const double time = static_cast<double>(pulses_[i] - pulses_[i - 1]) * kNanosecond;
-    if (time > 0.0) {
-      dwells.emplace_back(kTwoPi / time, time);
-    }
-  }
-  steady_speed_ = longestKept(std::move(dwells));
+  steady_speed_ = longestKeptSpeed(pulses_);
 }
 
-/// The whirl that a twin told, at each station that it published: x and y of each.
+/// The whirl that a twin published, at each station that it published: x and y of each.
 void RotorRecord::findWhirl(const RotorSystem& system) {
   std::map<std::string, std::int64_t> states;
   std::vector<std::pair<double, double>> dwells;
@@ -227,12 +252,12 @@ void RotorRecord::findWhirl(const RotorSystem& system) {
     if (states[name] == count) {
       whirls_.push_back(name);
       probes_.push_back({system.stations[k].name + " x", k, 0.0});
-      probes_.push_back({system.stations[k].name + " y", k, kHalfPi});
+      probes_.push_back({system.stations[k].name + " y", k, 0.5 * kPi});
     }
   }
   const auto [first, last] = times[system.name];
   period_ = (last - first) / static_cast<double>(count - 1);
-  steady_speed_ = longestKept(std::move(dwells));
+  steady_speed_ = longestKeptSpeed(std::move(dwells));
 }
 
 RecordCounts RotorRecord::read(const std::function<void(const ProbeReading&)>& take) const {
@@ -241,7 +266,7 @@ RecordCounts RotorRecord::read(const std::function<void(const ProbeReading&)>& t
 
 RecordCounts RotorRecord::readProbes(const std::function<void(const ProbeReading&)>& take) const {
   RecordCounts counts;
-  TrackedShaft shaft(keyphasor_, pulses_);
+  RecordedShaft shaft(keyphasor_, pulses_);
   const auto newQueue = [&] {
     MeasuredQueue queue(kPatience);
     for (const ProbeSource& source : sources_) {
@@ -328,8 +353,7 @@ RecordCounts RotorRecord::readWhirl(const std::function<void(const ProbeReading&
   ProbeReading reading;
   const auto stations = static_cast<Eigen::Index>(whirls_.size());
   reading.values = Eigen::VectorXd::Constant(2 * stations, kNaN);
-  std::optional<double> time;
-  std::optional<double> origin;
+  std::optional<double> time, origin;
   const auto finish = [&] {
     if (time) {
       counts.not_valid += reading.values.array().isNaN().count();
@@ -347,7 +371,7 @@ RecordCounts RotorRecord::readWhirl(const std::function<void(const ProbeReading&
     if (found == whirls_.end() || (time && whirl->at.time < *time)) {
       return;
     }
-    if (!(std::fabs(whirl->shaft_angle) <= kLargestAngle) || !std::isfinite(whirl->speed)) {
+    if (!(std::fabs(whirl->shaft_angle) <= kMaxAngle) || !std::isfinite(whirl->speed)) {
       ++counts.no_angle;
       return;
     }

@@ -1,7 +1,7 @@
 // What a recording, LCM log or rosbag, holds of a running rotor: the samples of its displacement
 // probes with the angle of its shaft from the keyphasor's pulses, as `twin simulate --measure`
 // writes them and an acquisition beside a machine would; where there are no measurements, the whirl
-// that a twin told.
+// that a twin published.
 #pragma once
 
 #include <complex>
@@ -14,6 +14,7 @@
 
 #include "estimation/unbalance_fit.h"
 #include "messages/measurement.h"
+#include "reports/output.h"
 #include "reports/rotor_systems.h"
 #include "transport/logged_messages.h"
 
@@ -24,8 +25,8 @@ struct RecordedProbe {
   std::string name;                ///< of its channel; of several sources SOURCE/CHANNEL
   std::size_t station = 0;         ///< of the rotor's stations
   double direction = 0.0;          ///< [rad], across the shaft, from +x towards +y
-  double deviation = 0.0;          ///< [m], of its noise, as the messages say; 0: they do not
-  double delay = 0.0;              ///< [s], as the scene says
+  double deviation = 0.0;          ///< [m], of its noise, as in the messages; 0: not given
+  double delay = 0.0;              ///< [s], as in the scene
   double bandwidth = 0.0;          ///< [Hz], likewise; 0: no filter
   std::complex<double> run_out{};  ///< [m], likewise, as in unbalance_fit.h
 };
@@ -42,6 +43,8 @@ struct RecordCounts {
 
   /// What a reader should know of the pulses; "": nothing.
   std::string pulseNote() const;
+  /// Adds the counts to the JSON of a report; `used`: samples.
+  void addTo(Json& json, std::int64_t used) const;
 };
 
 /// Which sources of probes are read: all, so that a reading has the probes of one or more of them,
@@ -50,8 +53,8 @@ enum class ProbesRead { kAll, kAtSameInstants };
 
 class RotorRecord {
  public:
-  /// Looks through the log. Throws Refusal where it holds nothing of the rotor that could be used,
-  /// with what was expected, and as readLoggedMessages() does.
+  /// Looks through the log. Throws InputError where it holds nothing of the rotor that could be
+  /// used, with what was expected, and as readLoggedMessages() does.
   RotorRecord(const BuiltScene& scene, const RotorSystem& system, const std::string& log,
               const std::string& prefix, ProbesRead probes = ProbesRead::kAll);
 

@@ -8,17 +8,15 @@
 
 #include "algebra/constants.h"
 #include "analysis/separation_margin.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reports/campbell_report.h"
 #include "reports/critical_map_report.h"
 #include "reports/modes_report.h"
-#include "reports/parts_tables.h"
 #include "reports/report_page.h"
+#include "reports/report_values.h"
 #include "reports/response_report.h"
+#include "reports/rotor_parts.h"
 #include "reports/rotor_sheet.h"
-#include "reports/shaft_figures.h"
-#include "reports/table_speeds.h"
-#include "reports/verdict_text.h"
 
 namespace whirl_twin {
 
@@ -72,9 +70,9 @@ class RotorReport {
     try {
       page_.section(title);
       part();
-    } catch (const Refusal& refusal) {
+    } catch (const InputError& inputError) {
       page_ = before;
-      missing_.push_back(fmt::format("{}: {}", title, refusal.what()));
+      missing_.push_back(fmt::format("{}: {}", title, inputError.what()));
     } catch (const RunFailure& failure) {
       page_ = before;
       missing_.push_back(fmt::format("{}: {}", title, failure.what()));
@@ -313,10 +311,7 @@ class RotorReport {
 
 std::string rotorReportPage(const BuiltScene& scene, const RotorSystem& system,
                             const RotorReportRequest& request) {
-  if (request.speed && !(*request.speed >= 0.0 && *request.speed <= 1.0e6)) {
-    throw Refusal(fmt::format("--speed: expected a shaft speed from 0 to 1e+06 rad/s, found {:g}",
-                              *request.speed));
-  }
+  speedOption("--speed", request.speed.value_or(0.0));
   return RotorReport(scene, system, request).page();
 }
 

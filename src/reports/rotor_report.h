@@ -1,4 +1,4 @@
-// What `twin report` writes: all that is told of a rotor on paper, on one page.
+// The page of `twin report`: all analyses of a rotor, for print.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct RotorReportRequest {
   std::vector<Stage> stages;
 };
 
-/// The page (HTML). A part that a rotor does not have is told of at its end, with the reason.
+/// The page (HTML). Its end lists the parts that are left out for the rotor, with the reason.
 std::string rotorReportPage(const BuiltScene& scene, const RotorSystem& system,
                             const RotorReportRequest& request);
 

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/flexible_shaft_settings.h"
+#include "reports/rotor_systems.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kMostNodes = 30;  // of a table in the text
+constexpr std::size_t kMaxTableRows = 30;  // of a table in the text
 
 Json pair(const Across& a) {
   return {a.x + 0.0, a.y + 0.0};
@@ -32,7 +32,7 @@ std::string bearingsText(const RotorSheet& sheet) {
 }
 
 std::string nodesText(const std::vector<SagAtNode>& nodes) {
-  if (nodes.size() > kMostNodes) {
+  if (nodes.size() > kMaxTableRows) {
     const auto largest = [&](const auto& of) {
       const auto at = std::max_element(
           nodes.begin(), nodes.end(),
@@ -60,13 +60,38 @@ std::string nodesText(const std::vector<SagAtNode>& nodes) {
 
 }  // namespace
 
+std::optional<LargestSag> largestSag(const Dynamics& dynamics, const Eigen::VectorXd& q) {
+  std::optional<LargestSag> largest;
+  for (const Station& station : dynamics.stations()) {
+    const LargestSag here{station.name, station.along_x.dot(q), station.along_y.dot(q)};
+    const double size = std::hypot(here.x, here.y);
+    if (size > (largest ? std::hypot(largest->x, largest->y) : 0.0)) {
+      largest = here;
+    }
+  }
+  return largest;
+}
+
+std::string text(const LargestSag& sag) {
+  return fmt::format("{:.6g} m at {} (x {:.6g} m, y {:.6g} m)", std::hypot(sag.x, sag.y),
+                     sag.station, sag.x + 0.0, sag.y + 0.0);
+}
+
+Json json(const std::optional<LargestSag>& sag) {
+  return sag ? Json{{"station", sag->station},
+                    {"deflection", std::hypot(sag->x, sag->y)},
+                    {"x", sag->x + 0.0},
+                    {"y", sag->y + 0.0}}
+             : Json();
+}
+
 std::optional<RotorSheet> rotorSheet(const BuiltSystem& system, double speed) {
-  if (system.model->name != "flexible_rotor") {
+  const std::optional<FlexibleShaft> shaft = shaftOf(system);
+  if (!shaft) {
     return std::nullopt;
   }
   const double gravity = system.spec.setup->around.gravity;
-  const FlexibleShaft shaft = flexibleShaft(system.spec.parameters, system.spec.settings, gravity);
-  return RotorSheet{rotorBody(shaft), gravity, rotorStatics(shaft, gravity, speed)};
+  return RotorSheet{rotorBody(*shaft), gravity, rotorStatics(*shaft, gravity, speed)};
 }
 
 Json json(const RotorSheet& sheet) {
@@ -78,20 +103,19 @@ Json json(const RotorSheet& sheet) {
   if (!sheet.statics) {
     return json;
   }
-  Json& at_rest = json["static"];
-  at_rest["gravity"] = sheet.gravity;
-  at_rest["bearings"] = Json::array();
-  for (const BearingLoad& bearing : sheet.statics->bearings) {
-    at_rest["bearings"].push_back({{"node", bearing.node}, {"force", pair(bearing.force)}});
-  }
-  at_rest["nodes"] = Json::array();
-  for (const SagAtNode& n : sheet.statics->nodes) {
-    at_rest["nodes"].push_back({{"position", n.position},
-                                {"deflection", pair(n.deflection)},
-                                {"shear_before", pair(n.shear_before)},
-                                {"shear_after", pair(n.shear_after)},
-                                {"moment", pair(n.moment)}});
-  }
+  json["static"] = {
+      {"gravity", sheet.gravity},
+      {"bearings", listJson(sheet.statics->bearings,
+                            [](const BearingLoad& bearing) -> Json {
+                              return {{"node", bearing.node}, {"force", pair(bearing.force)}};
+                            })},
+      {"nodes", listJson(sheet.statics->nodes, [](const SagAtNode& n) -> Json {
+         return {{"position", n.position},
+                 {"deflection", pair(n.deflection)},
+                 {"shear_before", pair(n.shear_before)},
+                 {"shear_after", pair(n.shear_after)},
+                 {"moment", pair(n.moment)}};
+       })}};
   return json;
 }
 
@@ -112,16 +136,14 @@ CsvTable table(const RotorSheet& sheet) {
   }
   for (std::size_t i = 0; i < sheet.statics->nodes.size(); ++i) {
     const SagAtNode& n = sheet.statics->nodes[i];
-    nodes.rows.push_back({{"node", i},
-                          {"position", n.position},
-                          {"deflection_x", n.deflection.x},
-                          {"deflection_y", n.deflection.y},
-                          {"shear_before_x", n.shear_before.x},
-                          {"shear_before_y", n.shear_before.y},
-                          {"shear_after_x", n.shear_after.x},
-                          {"shear_after_y", n.shear_after.y},
-                          {"moment_x", n.moment.x},
-                          {"moment_y", n.moment.y}});
+    Json row{{"node", i}, {"position", n.position}};
+    for (const auto& [name, value] :
+         {std::pair("deflection", n.deflection), std::pair("shear_before", n.shear_before),
+          std::pair("shear_after", n.shear_after), std::pair("moment", n.moment)}) {
+      row[std::string(name) + "_x"] = value.x;
+      row[std::string(name) + "_y"] = value.y;
+    }
+    nodes.rows.push_back(row);
   }
   return nodes;
 }

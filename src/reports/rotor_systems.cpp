@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "analysis/whirl_modes.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
+#include "messages/names.h"
 #include "models/flexible_shaft_settings.h"
-#include "reports/selected_systems.h"
 
 namespace whirl_twin {
 
@@ -16,7 +16,30 @@ namespace {
 
 constexpr double kBeyondHighestSpeed = 1.2;  // of the drive's highest speed
 constexpr double kFastestShaft = 1.0e6;
-constexpr int kMostRangePoints = 10'000;
+constexpr int kMaxRangePoints = 10'000;
+
+bool isLinearRotor(const Dynamics& dynamics) {
+  return dynamics.linear() && dynamics.hasShaft() && !dynamics.stations().empty();
+}
+
+}  // namespace
+
+std::vector<std::size_t> selectedSystems(const Scene& scene,
+                                         const std::optional<std::string>& name) {
+  std::vector<std::size_t> selected;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    names.push_back(scene.systems[i].name);
+    if (!name || *name == names.back()) {
+      selected.push_back(i);
+    }
+  }
+  if (selected.empty()) {
+    throw InputError(
+        fmt::format("--system: no system '{}' in {}{}", *name, scene.source, hint(*name, names)));
+  }
+  return selected;
+}
 
 std::optional<FlexibleShaft> shaftOf(const BuiltSystem& system) {
   if (system.model->name != "flexible_rotor") {
@@ -26,19 +49,25 @@ std::optional<FlexibleShaft> shaftOf(const BuiltSystem& system) {
                        system.spec.setup->around.gravity);
 }
 
-bool isLinearRotor(const Dynamics& dynamics) {
-  return dynamics.linear() && dynamics.hasShaft() && !dynamics.stations().empty();
-}
-
 double speedOption(const char* option, double speed) {
   if (!(speed >= 0.0 && speed <= kFastestShaft)) {
-    throw Refusal(fmt::format("{}: expected a shaft speed from 0 to {:g} rad/s, found {:g}", option,
-                              kFastestShaft, speed));
+    throw InputError(fmt::format("{}: expected a shaft speed from 0 to {:g} rad/s, found {:g}",
+                                 option, kFastestShaft, speed));
   }
   return speed;
 }
 
-}  // namespace
+std::size_t RotorSystem::stationNamed(const char* option, const std::string& station) const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    names.push_back(stations[i].name);
+    if (names.back() == station) {
+      return i;
+    }
+  }
+  throw InputError(
+      fmt::format("{}: no station '{}' on {}{}", option, station, title(), hint(station, names)));
+}
 
 std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
                                       const std::optional<std::string>& name) {
@@ -57,14 +86,14 @@ std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
                       std::max(std::fabs(low), std::fabs(high)), shaftOf(system)});
   }
   if (rotors.empty()) {
-    throw Refusal(
+    throw InputError(
         fmt::format("{}: expected a linear rotor on a shaft of prescribed speed, found {}",
                     name ? "--system" : scene.scene.source, fmt::join(others, ", ")));
   }
   return rotors;
 }
 
-WholeRotor wholeRotor(const RotorSystem& system, std::optional<std::size_t> pushed) {
+FullOrderModel fullOrderModel(const RotorSystem& system, std::optional<std::size_t> pushed) {
   if (!system.shaft) {
     return {system.rotor, system.stations};
   }
@@ -75,14 +104,14 @@ WholeRotor wholeRotor(const RotorSystem& system, std::optional<std::size_t> push
     }
   }
   const RotorAssembly assembly(shaft);
-  WholeRotor whole{assembly.linearRotor(), {}};
+  FullOrderModel full{assembly.linearRotor(), {}};
   const std::vector<Station> nodes = assembly.stations();
   for (const Station& station : system.stations) {
     const auto same = std::find_if(nodes.begin(), nodes.end(),
                                    [&](const Station& node) { return node.name == station.name; });
-    whole.stations.push_back(*same);
+    full.stations.push_back(*same);
   }
-  return whole;
+  return full;
 }
 
 std::vector<double> SpeedRange::speeds() const {
@@ -95,9 +124,9 @@ std::vector<double> SpeedRange::speeds() const {
 
 SpeedRange SpeedRangeOptions::of(const RotorSystem& system) const {
   SpeedRange range{speedOption("--from", from.value_or(0.0)), 0.0, points};
-  if (points < 2 || points > kMostRangePoints) {
-    throw Refusal(
-        fmt::format("--points: expected from 2 to {}, found {}", kMostRangePoints, points));
+  if (points < 2 || points > kMaxRangePoints) {
+    throw InputError(
+        fmt::format("--points: expected from 2 to {}, found {}", kMaxRangePoints, points));
   }
   if (to) {
     range.to = speedOption("--to", *to);
@@ -110,8 +139,8 @@ SpeedRange SpeedRangeOptions::of(const RotorSystem& system) const {
                    : 2.0 * modes[std::min<std::size_t>(2, modes.size() - 1)].naturalFrequency();
   }
   if (!(range.from < range.to)) {
-    throw Refusal(fmt::format("--from, --to: --from must be < --to, found {:g} and {:g} rad/s",
-                              range.from, range.to));
+    throw InputError(fmt::format("--from, --to: --from must be < --to, found {:g} and {:g} rad/s",
+                                 range.from, range.to));
   }
   return range;
 }

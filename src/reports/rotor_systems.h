@@ -1,4 +1,5 @@
-// The rotors of a scene, as `twin campbell`, `twin response` and `twin orbit` look at them.
+// The rotors of a scene, for `twin campbell`, `twin response`, `twin orbit` and others, and the
+// options of these commands.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +10,12 @@
 #include "mechanics/linear_rotor.h"
 #include "mechanics/rotors/rotor_assembly.h"
 #include "scene/built_scene.h"
+#include "scene/scene.h"
 
 namespace whirl_twin {
 
 /// Of one chart: as many as it has colours.
-inline constexpr std::size_t kMostStationsDrawn = 7;
+inline constexpr std::size_t kMaxStationsDrawn = 7;
 
 struct RotorSystem {
   std::string name, model;
@@ -27,21 +29,30 @@ struct RotorSystem {
   DataSpeeds tables() const { return dataSpeeds(rotor); }
   /// "NAME (MODEL)"
   std::string title() const { return name + " (" + model + ")"; }
+  /// Of that name. Throws InputError, which names the option, with a hint.
+  std::size_t stationNamed(const char* option, const std::string& station) const;
 };
 
-/// The linear rotors of a scene, or the one of that name. Throws Refusal where there is none.
+/// Of a flexible_rotor, as its scene gives it.
+std::optional<FlexibleShaft> shaftOf(const BuiltSystem& system);
+
+/// The linear rotors of a scene, or the one of that name. Throws InputError where there is none.
 std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
                                       const std::optional<std::string>& name);
 
-/// In all coordinates of its nodes, however few it is stepped with: right for motions that its
-/// unbalance does not make.
-struct WholeRotor {
+/// The full-order model, also where the simulation uses a reduced one: valid for motions that are
+/// not caused by its unbalance.
+struct FullOrderModel {
   LinearRotor rotor;
   std::vector<Station> stations;  ///< in the order of RotorSystem's
 };
-/// `pushed`: of its stations the one that something else acts on, whose motion then is not left to
-/// the others' where it has no mass.
-WholeRotor wholeRotor(const RotorSystem& system, std::optional<std::size_t> pushed = std::nullopt);
+/// `pushed`: the station that another force acts on, whose motion then is not condensed where it
+/// has no mass.
+FullOrderModel fullOrderModel(const RotorSystem& system,
+                              std::optional<std::size_t> pushed = std::nullopt);
+
+/// The speed of a shaft [rad/s]. Throws InputError, which names the option.
+double speedOption(const char* option, double speed);
 
 struct SpeedRange {
   double from = 0.0, to = 0.0;  ///< [rad/s]
@@ -50,14 +61,19 @@ struct SpeedRange {
   std::vector<double> speeds() const;
 };
 
-/// Options of a command that looks at a range of speeds.
+/// Options of a command for a range of speeds.
 struct SpeedRangeOptions {
   std::optional<double> from, to;  ///< [rad/s]
   int points = 200;
 
-  /// Missing: from 0 to 1.2 times the drive's highest speed; of a shaft that stands still to twice
-  /// the third natural frequency. Throws Refusal.
+  /// Missing: from 0 to 1.2 times the drive's highest speed; of a shaft at standstill to twice
+  /// the third natural frequency. Throws InputError.
   SpeedRange of(const RotorSystem& system) const;
 };
+
+/// The system of that name, or all of them without a name: indices into scene.systems.
+/// Throws InputError with a hint.
+std::vector<std::size_t> selectedSystems(const Scene& scene,
+                                         const std::optional<std::string>& name);
 
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "reports/verdict_text.h"
+#include "reports/report_values.h"
 
 namespace whirl_twin {
 
@@ -79,17 +79,12 @@ Json routhCountsJson(const RouthResult& routh) {
 }  // namespace
 
 Json json(const RouthTable& table, const std::string& symbol) {
-  Json rows = Json::array();
-  for (const RouthTableRow& row : table.rows) {
-    Json entries = Json::array();
-    for (const SymbolicQuotient& entry : row.entry) {
-      entries.push_back(text(entry, symbol));
-    }
-    rows.push_back({{"power", row.power},
-                    {"entries", entries},
-                    {"note", row.note.empty() ? Json() : Json(row.note)}});
-  }
-  return rows;
+  return listJson(table.rows, [&](const RouthTableRow& row) -> Json {
+    const auto entry_text = [&](const SymbolicQuotient& entry) { return text(entry, symbol); };
+    return {{"power", row.power},
+            {"entries", listJson(row.entry, entry_text)},
+            {"note", textOrNull(row.note)}};
+  });
 }
 
 CsvTable csv(const RouthTable& table, const std::string& symbol) {
@@ -162,7 +157,7 @@ Json json(const StabilityRange& range, const std::string& symbol) {
                               {"degree_falls", bound.degree_falls},
                               {"root_at_zero", bound.root_at_zero},
                               {"pair", bound.pair_on_axis},
-                              {"frequency", bound.frequency ? Json(*bound.frequency) : Json()},
+                              {"frequency", bound.frequency},
                               {"there", bound.there ? routhCountsJson(*bound.there) : Json()}});
   }
   json["intervals"] = Json::array();
@@ -175,10 +170,9 @@ Json json(const StabilityRange& range, const std::string& symbol) {
 }
 
 std::string text(const StabilityRange& range, const std::string& symbol) {
-  std::string pieces;
-  for (const StablePiece& piece : stablePieces(range)) {
-    pieces += (pieces.empty() ? "" : ", and for ") + pieceText(range, piece, symbol);
-  }
+  const std::string pieces = joined(
+      stablePieces(range),
+      [&](const StablePiece& piece) { return pieceText(range, piece, symbol); }, ", and for ");
   std::string out =
       fmt::format("asymptotically stable for {}\n", pieces.empty() ? "no " + symbol : pieces);
   if (range.never) {

@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "accuracy/step_choice.h"
 #include "accuracy/trajectory.h"
+#include "algebra/constants.h"
 #include "analysis/rotor_statics.h"
 #include "analysis/sommerfeld_speeds.h"
-#include "models/flexible_shaft_settings.h"
+#include "reports/report_values.h"
+#include "reports/rotor_systems.h"
 #include "reports/step_cost.h"
-#include "reports/table_speeds.h"
 #include "scene/held_rotor.h"
 #include "scene/part_of_scene.h"
 #include "scene/signal_names.h"
@@ -25,21 +25,19 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDearSteps = 10.0;     // s, to prepare: of such the cost of a step is not measured
 constexpr double kWholeBudget = 0.02;   // s, to measure the scene
 constexpr double kSystemBudget = 0.01;  // s, to measure one system,
 constexpr double kSystemsBudget = 0.5;  // and all of them one by one
 
 std::optional<ShaftSize> shaftSize(const BuiltSystem& system) {
-  if (system.model->name != "flexible_rotor") {
+  std::optional<FlexibleShaft> shaft = shaftOf(system);
+  if (!shaft) {
     return std::nullopt;
   }
-  FlexibleShaft shaft = flexibleShaft(system.spec.parameters, system.spec.settings,
-                                      system.spec.setup->around.gravity);
-  ShaftSize size{shaft.positions().back(), 0.0, rotorBody(shaft).mass};
-  shaft.discs.clear();
-  size.mass = rotorBody(shaft).mass;
+  ShaftSize size{shaft->positions().back(), 0.0, rotorBody(*shaft).mass};
+  shaft->discs.clear();
+  size.mass = rotorBody(*shaft).mass;
   return size;
 }
 
@@ -172,7 +170,7 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
     const AskedCost steps = costOfSteps(built, i);
     if (steps.seconds > kDearSteps) {
       system.preparation = steps.seconds;
-      system.step_cost = kUnknown;
+      system.step_cost = kNaN;
       system.memory = static_cast<std::size_t>(steps.memory);
       dear = true;
       continue;
@@ -186,7 +184,7 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
     check.step_cost = check.systems[0].step_cost;
     check.memory = check.systems[0].memory;
   } else if (dear) {
-    check.step_cost = kUnknown;
+    check.step_cost = kNaN;
     for (const SystemCheck& system : check.systems) {
       check.memory += system.memory;
     }

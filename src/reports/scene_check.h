@@ -1,4 +1,4 @@
-// What `twin check` says of a sound scene.
+// What `twin check` shows of a valid scene.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/promise.h"
+#include "accuracy/error_bound.h"
 #include "reports/asked_cost.h"
-#include "reports/largest_sag.h"
 #include "reports/output.h"
+#include "reports/rotor_sheet.h"
 #include "twin/twin.h"
 
 namespace whirl_twin {
@@ -21,7 +21,7 @@ struct PublishedTopic {
   std::string type;
 };
 
-/// Where a system or drive is heard.
+/// Where a system or drive is published.
 struct Published {
   std::vector<PublishedTopic> topics;
   std::vector<std::string> channels;  ///< LCM
@@ -44,23 +44,23 @@ struct SystemCheck {
   std::string name;
   const ModelInfo* model = nullptr;
   std::vector<CoordinateInfo> coordinates;
-  std::string note;                   ///< what the model says of how it was set up; may be empty
+  std::string note;                   ///< of the model, how it was set up; may be empty
   std::optional<ShaftSize> shaft;     ///< of a flexible_rotor
-  std::vector<std::string> warnings;  ///< what makes results a guess, in words
+  std::vector<std::string> warnings;  ///< why results are uncertain
   std::string integrator;
   std::string reason;  ///< why this one
   int substeps = 1;
   double tolerance = 0.0;  ///< [-], of the scene,
   double horizon = 0.0;    ///< [s], over which
-  Promise accuracy;
+  ErrorBound accuracy;
   std::optional<std::string> drive;
   std::optional<double> speed;    ///< [rad/s], constant
   bool starts_at_rest = false;    ///< at its equilibrium
   std::optional<LargestSag> sag;  ///< of that
   std::vector<InputCheck> inputs;
   Published published;
-  double step_cost = 0.0;    ///< [ns]; NaN: it stops at once, or was too dear to prepare
-  double preparation = 0.0;  ///< [s], of its steps, about, where that was too dear
+  double step_cost = 0.0;    ///< [ns]; NaN: it stops at once, or was too expensive to prepare
+  double preparation = 0.0;  ///< [s], of its steps, about, where that was too expensive
   std::size_t memory = 0;    ///< [bytes], heap of a twin of it alone
   std::string ensemble;      ///< "1000 members, side by side in vectors", or ""
 };

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "algebra/constants.h"
-#include "signal/line_character.h"
+#include "signal/whirl_component_class.h"
 
 namespace whirl_twin {
 
@@ -16,13 +16,13 @@ namespace {
 constexpr double kOrdersShown = 2.5;      // times the highest speed, to either side
 constexpr double kFaintestLine = 1.0e-4;  // of the highest line, that a spectrum shows
 constexpr std::size_t kColumns = 480;
-constexpr std::size_t kMostRidges = 40;
-constexpr double kHighestRidge = 0.15;  // of the axis
+constexpr std::size_t kMaxRidges = 40;
+constexpr double kMaxRidge = 0.15;  // of the axis
 
 /// [rad/s], how far a picture reaches to either side.
 double reachOf(const std::vector<const WindowSpectrum*>& spectra) {
   double reach = 0.0;
-  double end = std::numeric_limits<double>::infinity();
+  double end = kInfinity;
   double line = 0.0;
   for (const WindowSpectrum* spectrum : spectra) {
     reach = std::max(reach, kOrdersShown * std::fabs(spectrum->speed));
@@ -86,12 +86,12 @@ Cascade apart(const std::vector<WindowSpectrum>& spectra, bool over_speed) {
       [&](const auto* a, const auto* b) { return cascade.base(*a) < cascade.base(*b); });
   const double least =
       (cascade.base(*cascade.spectra.back()) - cascade.base(*cascade.spectra.front())) /
-      static_cast<double>(kMostRidges);
+      static_cast<double>(kMaxRidges);
   const auto at_the_last = [&](const WindowSpectrum* spectrum) {
     return spectrum != &spectra.back() &&
            std::fabs(cascade.base(*spectrum) - cascade.base(spectra.back())) < least;
   };
-  double before = -std::numeric_limits<double>::infinity();
+  double before = -kInfinity;
   const auto crowded = [&](const WindowSpectrum* spectrum) {
     if (at_the_last(spectrum) || (spectrum != &spectra.back() &&
                                   cascade.base(*spectrum) < before + (1.0 - 1.0e-9) * least)) {
@@ -164,7 +164,7 @@ std::string lineText(const SpectrumLine& line) {
 }
 
 std::string subsynchronousText(const std::vector<WindowSpectrum>& spectra) {
-  LineCharacter character;
+  WhirlComponentClass character;
   for (const WindowSpectrum& spectrum : spectra) {
     const auto line = std::find_if(spectrum.lines.begin(), spectrum.lines.end(),
                                    [](const SpectrumLine& l) { return l.subsynchronous(); });
@@ -173,9 +173,9 @@ std::string subsynchronousText(const std::vector<WindowSpectrum>& spectra) {
     }
   }
   switch (character.kind()) {
-    case LineCharacter::Kind::kKeepsRatio:
+    case WhirlComponentClass::Kind::kKeepsRatio:
       return "the subsynchronous component keeps its ratio to the speed, as oil whirl does";
-    case LineCharacter::Kind::kKeepsFrequency:
+    case WhirlComponentClass::Kind::kKeepsFrequency:
       return "the subsynchronous component keeps its frequency, as oil whip and free vibration do";
     default:
       return "";
@@ -233,13 +233,13 @@ Chart cascadeChart(const std::vector<WindowSpectrum>& spectra) {
   chart.x = {"backward          frequency (rad/s)          forward", false, true};
   chart.y = {cascade.over_speed ? "speed of the shaft (rad/s)" : "time (s)", false, true};
   // From the front backwards: what stands behind something higher is hidden.
-  std::vector<double> horizon(kColumns, -std::numeric_limits<double>::infinity());
+  std::vector<double> horizon(kColumns, -kInfinity);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const double base = cascade.base(*cascade.spectra[i]);
     Series ridge;
     ridge.pen = Pen{ink::kBlue, 0.9};
     for (std::size_t k = 0; k < kColumns; ++k) {
-      const double y = base + kHighestRidge * (high - low) * std::sqrt(columns[i][k] / highest);
+      const double y = base + kMaxRidge * (high - low) * std::sqrt(columns[i][k] / highest);
       ridge.x.push_back(columnAt(k, reach));
       ridge.y.push_back(y >= horizon[k] ? y : kNaN);
       horizon[k] = std::max(horizon[k], y);

@@ -15,7 +15,7 @@ std::string lineName(const SpectrumLine& line);
 /// "1X forward 0.52 mm", "0.28X forward (40.0 rad/s) 12 um".
 std::string lineText(const SpectrumLine& line);
 
-/// What the lines that are slower than the shaft are, as far as the change of the speed tells;
+/// Class of the subsynchronous components, as far as the change of speed identifies it;
 /// "" where there are none, or it does not.
 std::string subsynchronousText(const std::vector<WindowSpectrum>& spectra);
 

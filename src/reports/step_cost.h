@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,5 +25,15 @@ RunningCost runningCost(const Scene& scene, double budget);
 
 /// [bytes] of the heap in use; large blocks are mapped each by itself.
 std::size_t heapInUse();
+
+struct StepTiming {
+  double median = 0.0;  ///< [ns] of a step, over the rounds
+  double spread = 0.0;  ///< [ns], slowest round less fastest
+};
+
+/// One for each scene, over the duration [ns] from its start, or the beginning of that if it takes
+/// long. progress gets the fraction done, 0 to 1.
+std::vector<StepTiming> interleavedTimings(const std::vector<Scene>& scenes, std::int64_t duration,
+                                           const std::function<void(double)>& progress);
 
 }  // namespace whirl_twin

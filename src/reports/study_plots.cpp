@@ -1,12 +1,9 @@
-#include "reports/study_plots.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -22,10 +19,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint64_t kMostDots = 2000;  // of a scatter
-constexpr std::uint64_t kFewDots = 60;     // that are drawn large
-constexpr std::size_t kMostClasses = 60;   // of a histogram
-constexpr std::size_t kMostBars = 25;      // numbers in a tornado
+constexpr std::uint64_t kMaxDots = 2000;  // of a scatter
+constexpr std::uint64_t kFewDots = 60;    // that are drawn large
+constexpr std::size_t kMaxClasses = 60;   // of a histogram
+constexpr std::size_t kMaxBars = 25;      // numbers in a tornado
 constexpr double kFence = 1.0;  // times the range from 1 % to 99 %, that a histogram goes beyond
 const Pen kMeets{ink::kBlue, 3.0};
 const Pen kMisses{ink::kVermilion, 3.0};
@@ -96,7 +93,7 @@ Figure MeasurePlots::histogram() const {
   const double high = std::min(d.largest, d.percentiles.back() + fence);
   const AxisRange range = high > low ? AxisRange{low, high} : widened({low, low});
   const auto classes = static_cast<std::size_t>(std::clamp(
-      std::ceil(std::sqrt(static_cast<double>(d.count))), 1.0, static_cast<double>(kMostClasses)));
+      std::ceil(std::sqrt(static_cast<double>(d.count))), 1.0, static_cast<double>(kMaxClasses)));
   const double width = (range.high - range.low) / static_cast<double>(classes);
   const auto last = static_cast<double>(classes - 1);
   std::vector<double> counts(classes);
@@ -140,7 +137,7 @@ Figure MeasurePlots::histogram() const {
       chart.series.push_back(limit);
     }
   }
-  if (chart.series.size() == 3) {  // a legend tells apart
+  if (chart.series.size() == 3) {  // a legend distinguishes them
     chart.series[0].name = fmt::format("{} points", d.count);
   }
   constexpr std::array<std::pair<std::size_t, const char*>, 3> kMarked{
@@ -188,7 +185,7 @@ std::vector<Series> MeasurePlots::dots(std::size_t number) const {
     series->line = !large;
     series->marks = large ? Marks::kDots : Marks::kNone;
   }
-  const std::uint64_t count = std::min(study_.points(), kMostDots);
+  const std::uint64_t count = std::min(study_.points(), kMaxDots);
   for (std::uint64_t k = 0; k < count; ++k) {
     // Any of them: every n-th would take one level of a grid.
     const std::uint64_t point =
@@ -264,7 +261,7 @@ BarChart MeasurePlots::effects() const {
   chart.base = values_[0];
   chart.names = {"at its minimum", "at its maximum"};
   for (std::size_t j = 0; j < study_.vary.size(); ++j) {
-    double smallest = std::numeric_limits<double>::infinity();
+    double smallest = kInfinity;
     double largest = -smallest;
     Bar at_smallest{kNaN, kNaN, kNaN};
     Bar at_largest = at_smallest;
@@ -327,10 +324,10 @@ std::optional<BarChart> MeasurePlots::tornado() const {
   };
   std::stable_sort(chart.groups.begin(), chart.groups.end(),
                    [&](const BarGroup& a, const BarGroup& b) { return weight(a) > weight(b); });
-  if (chart.groups.size() > kMostBars) {
+  if (chart.groups.size() > kMaxBars) {
     chart.subtitle +=
-        fmt::format("; the {} most sensitive of {} parameters", kMostBars, chart.groups.size());
-    chart.groups.resize(kMostBars);
+        fmt::format("; the {} most sensitive of {} parameters", kMaxBars, chart.groups.size());
+    chart.groups.resize(kMaxBars);
   }
   chart.title = title_;
   return chart;

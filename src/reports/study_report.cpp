@@ -12,20 +12,20 @@ namespace whirl_twin {
 
 namespace {
 
-/// Wide enough for all of them.
-template <class All, class NameOf>
-std::size_t widthOf(const All& all, const NameOf& name_of) {
+/// Wide enough for of(one) of each.
+template <class All, class Of>
+std::size_t widthOf(const All& all, const Of& of) {
   std::size_t width = 0;
   for (const auto& one : all) {
-    width = std::max(width, name_of(one).size());
+    width = std::max(width, of(one).size());
   }
   return width;
 }
 
-const std::string& variationPath(const Variation& variation) {
+std::string variationPath(const Variation& variation) {
   return variation.path;
 }
-const std::string& measureName(const Measure& measure) {
+std::string measureName(const Measure& measure) {
   return measure.name;
 }
 
@@ -78,7 +78,7 @@ std::string tableOf(
   return text;
 }
 
-/// What is said beside the indices of a measure.
+/// A remark on the indices of a measure.
 std::string noteOf(const std::vector<Estimate>& estimates, std::uint64_t left_out,
                    const char* what) {
   std::string note;
@@ -123,6 +123,29 @@ Json valuesJson(const Study& study, const std::vector<double>& values) {
     json[study.vary[j].path] = values[j];
   }
   return json;
+}
+
+/// "smallest", "largest": the end of its range that a number is at; "": neither.
+std::string endOf(const Variation& variation, double value) {
+  constexpr double kAt = 1.0e-6;  // of the range
+  const double low = variation.distribution.smallest();
+  const double high = variation.distribution.largest();
+  const double near = kAt * (high - low);
+  return value <= low + near ? "smallest" : value >= high - near ? "largest" : "";
+}
+
+/// In a column of a table.
+std::string optimumCell(double value) {
+  return std::isnan(value)   ? fmt::format(" {:>12}", "undefined")
+         : std::isinf(value) ? fmt::format(" {:>12}", value > 0.0 ? "infinite" : "-infinite")
+                             : fmt::format(" {:12.6g}", value);
+}
+
+/// In the order of the study.
+std::vector<double> measuresAtStart(const Study& study, const Optimum& optimum) {
+  return optimum.at_start.measures.empty()
+             ? std::vector<double>(study.measures.size(), std::nan(""))
+             : optimum.at_start.measures;
 }
 
 }  // namespace
@@ -265,7 +288,7 @@ std::string text(const Study& study, const StudyStatus& status) {
   if (std::isfinite(status.rate)) {
     text += fmt::format(", {:.3g} per second", status.rate);
     if (status.done < study.points()) {
-      text += fmt::format(", {} remaining at this rate", inWords(status.left));
+      text += fmt::format(", {} remaining at this rate", durationText(status.left));
     }
   }
   return text + "\n";
@@ -276,6 +299,95 @@ Json json(const Study& study, const StudyStatus& status) {
           {"points", study.points()},
           {"rate", status.rate},
           {"seconds_left", status.left}};
+}
+
+std::string text(const Study& study, const Optimum& optimum) {
+  const Optimization& asked = *study.optimization;
+  std::string text = fmt::format(
+      "{}: {} of {} over {} by {}: {} evaluations, {}{}\n", study.source,
+      asked.maximize ? "maximum" : "minimum", study.measures[asked.measure].name,
+      asked.over.size() == 1 ? "one parameter" : fmt::format("{} parameters", asked.over.size()),
+      asked.method, optimum.evaluations,
+      optimum.failures > 0 ? fmt::format("{} of which failed, ", optimum.failures) : "",
+      optimum.ended);
+  const bool found = !optimum.values.empty();
+  if (!found) {
+    text += "no point satisfies the requirements\n";
+  }
+  const auto label = [&](std::size_t j) {
+    return nameWithUnit(study.vary[j].path, study.vary[j].unit);
+  };
+  const std::size_t width = std::max({std::size_t{7}, widthOf(asked.over, label),
+                                      widthOf(study.measures, [](const Measure& measure) {
+                                        return nameWithUnit(measure.name, measure.unit);
+                                      })});
+  text += fmt::format("\n{:{}} {:>12} {:>12} {:>12} {:>12}\n", "", width, "from", "to", "start",
+                      found ? "best" : "");
+  for (const std::size_t j : asked.over) {
+    const Variation& v = study.vary[j];
+    text += fmt::format("{:{}} {:12.6g} {:12.6g} {:12.6g}", label(j), width,
+                        v.distribution.smallest(), v.distribution.largest(), optimum.start[j]);
+    if (found) {
+      const std::string end = endOf(v, optimum.values[j]);
+      text += fmt::format(" {:12.6g}{}", optimum.values[j],
+                          end.empty() ? "" : "  at the " + end + " of its range");
+    }
+    text += "\n";
+  }
+  text += "\n";
+  const std::vector<double> start = measuresAtStart(study, optimum);
+  for (std::size_t k = 0; k < study.measures.size(); ++k) {
+    const Measure& measure = study.measures[k];
+    text +=
+        fmt::format("{:{}} {:>12} {:>12}", nameWithUnit(measure.name, measure.unit), width, "", "");
+    text += optimumCell(start[k]) + (found ? optimumCell(optimum.measures[k]) : "") + "\n";
+  }
+  if (found && !study.requirements.empty()) {
+    text += "\nrequirements met:";
+    text += joined(study.requirements, [&](const Requirement& requirement) {
+      return "  " + whirl_twin::text(requirement, study);
+    });
+    text += "\n";
+  }
+  return text;
+}
+
+Json json(const Study& study, const Optimum& optimum) {
+  const Optimization& asked = *study.optimization;
+  const bool found = !optimum.values.empty();
+  Json json{{"study", study.source},
+            {asked.maximize ? "maximize" : "minimize", study.measures[asked.measure].name},
+            {"method", asked.method},
+            {"evaluations", optimum.evaluations},
+            {"failed", optimum.failures},
+            {"converged", optimum.converged},
+            {"ended", optimum.ended},
+            {"found", found},
+            {"numbers", Json::object()}};
+  for (const std::size_t j : asked.over) {
+    const Variation& v = study.vary[j];
+    Json& number = json["numbers"][v.path];
+    number = {{"from", v.distribution.smallest()},
+              {"to", v.distribution.largest()},
+              {"start", optimum.start[j]},
+              {"unit", v.unit}};
+    if (found) {
+      number["best"] = optimum.values[j];
+      number["at_end"] = endOf(v, optimum.values[j]);
+    }
+  }
+  const std::vector<double> start = measuresAtStart(study, optimum);
+  for (std::size_t k = 0; k < study.measures.size(); ++k) {
+    Json& measure = json["measures"][study.measures[k].name];
+    measure = {{"start", start[k]}, {"unit", study.measures[k].unit}};
+    if (found) {
+      measure["best"] = optimum.measures[k];
+    }
+  }
+  json["requirements"] = listJson(study.requirements, [&](const Requirement& requirement) {
+    return whirl_twin::text(requirement, study);
+  });
+  return json;
 }
 
 }  // namespace whirl_twin

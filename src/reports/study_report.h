@@ -1,11 +1,14 @@
-// What `twin sweep` says: the answers of a study, how far it has come, and one point of it.
+// Results of `twin sweep`: statistics of a study, its progress, one point of it, an optimum, and
+// pictures: histogram, scatter, tornado, map.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "plots/canvas.h"
 #include "reports/output.h"
 #include "studies/answers.h"
+#include "studies/optimizer.h"
 
 namespace whirl_twin {
 
@@ -32,5 +35,18 @@ struct StudyStatus {
 StudyStatus statusOf(const Study& study, const ResultFolder& folder);
 std::string text(const Study& study, const StudyStatus& status);
 Json json(const Study& study, const StudyStatus& status);
+
+std::string text(const Study& study, const Optimum& optimum);
+Json json(const Study& study, const Optimum& optimum);
+
+struct StudyPlot {
+  std::string measure;  ///< its name
+  std::string kind;     ///< "histogram", "scatter", "tornado" or "map"
+  std::string image;    ///< the file
+};
+
+/// Of every measure, in the study's order; none of one that is finite nowhere. Throws RunFailure.
+std::vector<StudyPlot> studyPlots(const Study& study, const StudyTable& table,
+                                  const Answers& answers, ImageFormat format);
 
 }  // namespace whirl_twin

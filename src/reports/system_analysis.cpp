@@ -4,12 +4,15 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "algebra/constants.h"
 #include "algebra/dense.h"
 #include "analysis/critical_speeds.h"
 #include "analysis/instability_speed.h"
 #include "analysis/separation_margin.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
+#include "reports/report_values.h"
 #include "scene/driven_dynamics.h"
 #include "scene/held_rotor.h"
 
@@ -19,6 +22,16 @@ namespace {
 
 Eigen::VectorXd vector(const std::vector<double>& x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+/// Steady speeds of a rotor that a motor turns, by the linear rotor at constant speed; empty where
+/// there is no motor, or that rotor is not linear.
+std::vector<SteadySpeed> steadySpeedsOf(const BuiltSystem& system) {
+  const std::optional<RotorOnMotor> driven = rotorOnMotor(system);
+  return driven && driven->held->linear() && driven->held->hasShaft()
+             ? sommerfeldSpeeds(driven->held->linearRotor(), driven->motor,
+                                highestSpeed(driven->motor))
+             : std::vector<SteadySpeed>{};
 }
 
 /// Into `judged` the verdict on the operating point, if there is one.
@@ -131,12 +144,103 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
       a.at_equilibrium && (!isJudgedOnlyAtRest(dynamics) || a.reduced_stability.bounded());
   if (holds && (search == ParameterSearch::kOfAll || isQuickToSearch(system))) {
     a.parameter_margins = parameterMargins(system, {a.about, a.about_v}, shaft.speed);
-    a.decrement_amplitude = decrementAmplitude(dynamics, {a.about, a.about_v}, shaft.speed);
+    a.decrement_amplitude = linearDampingLimit(dynamics, {a.about, a.about_v}, shaft.speed);
   }
   if (holds) {
-    a.spread_margin = spreadMargin(system, {a.about, a.about_v}, shaft.speed);
+    a.spread_margin = robustStabilityMargin(system, {a.about, a.about_v}, shaft.speed);
   }
   return a;
+}
+
+/// {coordinate: value, ..., coordinate_rate: value, ...}; v may be empty.
+Json stateJson(const SystemAnalysis& a, const Eigen::VectorXd& q, const Eigen::VectorXd& v = {}) {
+  Json json;
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    json[a.coordinates[static_cast<std::size_t>(i)].name] = q[i];
+  }
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    json[a.coordinates[static_cast<std::size_t>(i)].name + "_rate"] = v[i];
+  }
+  return json;
+}
+
+Json routhJson(const RouthResult& routh) {
+  return {{"verdict", name(routh.verdict)},
+          {"right", routh.right},
+          {"imaginary", routh.imaginary},
+          {"left", routh.left},
+          {"first_column", routh.first_column}};
+}
+
+/// The motion of the shape, its momenta conserved.
+Json reducedJson(const SystemAnalysis& a) {
+  const auto name_of = [&](Eigen::Index i) {
+    return a.coordinates[static_cast<std::size_t>(i)].name;
+  };
+  Json json;
+  if (a.dynamics->linear()) {
+    json["rigid_body_modes"] = a.cyclic.conserved.size() + a.cyclic.driven.size();
+  } else {
+    json["cyclic"] = listJson(a.cyclic.conserved, name_of);
+    json["driven"] = listJson(a.cyclic.driven, name_of);
+    for (const Eigen::Index i : a.cyclic.conserved) {
+      json["momenta"][name_of(i)] = a.momenta[i];
+    }
+  }
+  json["natural_frequencies"] = arrayJson(a.reduced_stability.natural_frequencies);
+  json["damping_ratios"] = arrayJson(a.reduced_stability.damping_ratios);
+  json["characteristic_polynomial"] = arrayJson(a.reduced_stability.polynomial);
+  json["routh"] = routhJson(a.reduced_stability.routh);
+  return json;
+}
+
+Json criticalSpeedsJson(const SystemAnalysis& a) {
+  return listJson(a.critical_speeds, [&](const state::CriticalSpeedMargin& critical) -> Json {
+    return {{"speed", critical.speed},
+            {"direction", critical.direction},
+            {"amplification_factor", critical.amplification_factor},
+            {"separation_margin", critical.separation_margin},
+            {"required_separation_margin", critical.required_separation_margin},
+            {"beyond_tables", !a.tables.covers(critical.speed)}};
+  });
+}
+
+/// Parameters that, changed alone, lead to an instability point; `change` is null from zero. Null
+/// where they were not searched.
+Json parameterMarginsJson(const SystemAnalysis& a) {
+  if (!a.parameter_margins) {
+    return {};
+  }
+  const MarginResolution resolution = marginResolution(*a.dynamics);
+  return {{"resolution", resolution.stride},
+          {"reach", resolution.reach},
+          {"parameters", listJson(*a.parameter_margins, [&](const ParameterMargin& margin) -> Json {
+             return {{"parameter", margin.parameter},
+                     {"value", margin.value},
+                     {"lost_at", margin.loss.value},
+                     {"change", margin.change},
+                     {"loss", lossName(margin.loss.kind, *a.dynamics)},
+                     {"frequency", margin.loss.frequency}};
+           })}};
+}
+
+Json spreadMarginJson(const RobustStabilityMargin& margin) {
+  return {{"members", margin.decay_rates.size()},
+          {"growing", margin.beyond(0.0)},
+          {"lowest_decay_rate", margin.lowest_decay_rate},
+          {"stable_throughout", margin.stable_throughout}};
+}
+
+Json equilibriumJson(const SystemAnalysis& a, const Equilibrium& e) {
+  Json json{{"state", stateJson(a, e.q)},
+            {"verdict", name(e.stability.routh.verdict)},
+            {"decay_rate", e.stability.decay_rate}};
+  for (const auto* places : {&a.cyclic.conserved, &a.cyclic.driven}) {
+    for (const Eigen::Index i : *places) {
+      json["steady_rates"][a.coordinates[static_cast<std::size_t>(i)].name] = e.v[i];
+    }
+  }
+  return json;
 }
 
 }  // namespace
@@ -151,6 +255,116 @@ SystemAnalysis analyze(const BuiltScene& scene, std::size_t place, ParameterSear
         fmt::format("{}: cannot be analysed, a value exceeds the range of a double: {}",
                     system.spec.name, error.what()));
   }
+}
+
+CsvTables tables(const SystemAnalysis& a) {
+  CsvTable modes{"", {"mode", "natural_frequency", "damping_ratio"}};
+  const Stability& s = a.reduced_stability;
+  for (std::size_t i = 0; i < s.natural_frequencies.size(); ++i) {
+    modes.rows.push_back({{"mode", i + 1},
+                          {"natural_frequency", s.natural_frequencies[i]},
+                          {"damping_ratio", s.damping_ratios[i]}});
+  }
+  CsvTables all{modes,
+                {"eigenvalues",
+                 {"re", "im"},
+                 listJson(a.stability.eigenvalues,
+                          [](const auto& z) -> Json {
+                            return {{"re", z.real()}, {"im", z.imag()}};
+                          })},
+                {"critical_speeds",
+                 {"speed", "direction", "amplification_factor", "separation_margin",
+                  "required_separation_margin", "beyond_tables"},
+                 criticalSpeedsJson(a)},
+                {"parameters",
+                 {"parameter", "value", "lost_at", "change", "loss", "frequency"},
+                 a.parameter_margins ? parameterMarginsJson(a)["parameters"] : Json::array()}};
+  if (a.sheet) {
+    all.push_back(table(*a.sheet));
+  }
+  return all;
+}
+
+Json json(const SystemAnalysis& a) {
+  Json json{
+      {"model", a.model->name},
+      {"coordinates", listJson(a.coordinates, [](const CoordinateInfo& c) { return c.name; })},
+      {"time", a.moment.time},
+      {"speed", a.speed},
+      {"table_speeds", tableSpeedsJson(a.tables)},  // null: every speed
+      {"beyond_tables", a.speed && !a.tables.covers(*a.speed)},
+      {"state", stateJson(a, a.q, a.v)},
+      {"acceleration", stateJson(a, a.acceleration)},
+      {"energy",
+       {{"kinetic", a.energies.kinetic},
+        {"potential", a.energies.potential},
+        {"jacobi", a.energies.jacobi},
+        {"dissipated_power", a.energies.dissipated_power},
+        {"input_power", a.energies.input_power}}}};
+  if (a.sheet) {
+    json["rotor"] = whirl_twin::json(*a.sheet);
+  }
+  json["equilibria"] =
+      listJson(a.equilibria, [&](const Equilibrium& e) { return equilibriumJson(a, e); });
+  json["dry_friction"] = listJson(a.dry_friction, [](const DryHold& hold) -> Json {
+    return {{"place", hold.place},     {"level", hold.level}, {"unit", hold.unit},
+            {"sliding", hold.sliding}, {"held", hold.held},   {"share", hold.share}};
+  });
+  json["sag"] = whirl_twin::json(a.sag);
+  json["linearization"] = {{"about", stateJson(a, a.about, a.about_v)},
+                           {"mass", matrixJson(a.linearization.mass)},
+                           {"damping", matrixJson(a.linearization.damping)},
+                           {"gyroscopic", matrixJson(a.linearization.gyroscopic)},
+                           {"stiffness", matrixJson(a.linearization.stiffness)},
+                           {"circulatory", matrixJson(a.linearization.circulatory)}};
+  json["judged_about"] = a.periodic         ? "periodic_motion"
+                         : a.of_mean_loads  ? "mean_motion"
+                         : a.at_equilibrium ? "equilibrium"
+                                            : "initial_state";
+  json["periodic_motion"] = nullptr;
+  if (a.periodic) {  // the state at time 0 and the multipliers over a period
+    json["periodic_motion"] = {{"period", a.periodic->period},
+                               {"state", stateJson(a, a.periodic->q, a.periodic->v)},
+                               {"multipliers", listJson(a.periodic->multipliers, complexJson)}};
+  }
+  json["eigenvalues"] = listJson(a.stability.eigenvalues, [](const auto& z) -> Json {
+    return {z.real() + 0.0, z.imag() + 0.0};
+  });
+  json["omitted"] = a.stability.omitted;
+  json["natural_frequencies"] = arrayJson(a.reduced_stability.natural_frequencies);
+  json["damping_ratios"] = arrayJson(a.reduced_stability.damping_ratios);
+  json["characteristic_polynomial"] = arrayJson(a.stability.polynomial);
+  json["routh"] = routhJson(a.stability.routh);
+  if (a.cyclic.any()) {
+    json["reduced"] = reducedJson(a);
+  }
+  json["uncertain_because"] = textOrNull(a.uncertain_because);
+  const auto amplitude = a.decrement_amplitude.value_or(LinearDampingLimit{});
+  json["margins"] = {
+      {"decay_rate", a.reduced_stability.decay_rate},
+      {"damping_ratio", a.reduced_stability.damping_ratio},
+      {"log_decrement", a.reduced_stability.log_decrement},
+      // Infinite, and so null here, where it is valid for any.
+      {"log_decrement_amplitude", a.decrement_amplitude ? Json(amplitude.amplitude) : Json()},
+      {"log_decrement_coordinate", textOrNull(amplitude.coordinate)},
+      {"instability_speed", a.instability_speed}};
+  json["critical_speeds"] = criticalSpeedsJson(a);
+  json["critical_speeds_beyond_reduction"] = a.critical_speeds_beyond;
+  json["critical_speeds_searched_to"] = a.critical_speeds_to;  // infinite, and so null: all
+  json["cross_coupling_margin"] = nullptr;                     // of what is not a rotor
+  if (a.cross_coupling) {  // a null stiffness: no cross-coupling makes it unstable
+    json["cross_coupling_margin"] = {{"station", a.cross_coupling->station},
+                                     {"stiffness", a.cross_coupling->stiffness}};
+  }
+  json["parameter_margins"] = parameterMarginsJson(a);
+  json["spread_margin"] = a.spread_margin ? spreadMarginJson(*a.spread_margin) : Json();
+  json["steady_speeds"] = listJson(a.steady_speeds, [&](const SteadySpeed& steady) -> Json {
+    return {{"speed", steady.speed},
+            {"torque", steady.torque},
+            {"stable", steady.stable},
+            {"beyond_tables", !a.tables.covers(steady.speed)}};
+  });
+  return json;
 }
 
 }  // namespace whirl_twin

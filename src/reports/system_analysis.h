@@ -1,5 +1,4 @@
-// What linear theory says of one system of a scene: equilibria, modes, stability and its margins,
-// critical speeds. Everything `twin analyze` shows.
+// What `twin analyze` shows of a system at its start.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,18 +8,20 @@
 
 #include "analysis/cross_coupling_margin.h"
 #include "analysis/equilibria.h"
+#include "analysis/quadratic_form.h"
+#include "analysis/routh.h"
+#include "analysis/sommerfeld_speeds.h"
 #include "analysis/stability.h"
 #include "analysis/validity.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/rotors/rotor_assembly.h"
 #include "messages/stability_margin.h"
 #include "monitoring/parameter_margins.h"
-#include "monitoring/spread_margin.h"
 #include "reports/csv_table.h"
-#include "reports/largest_sag.h"
+#include "reports/output.h"
 #include "reports/rotor_sheet.h"
-#include "reports/steady_speeds.h"
 #include "scene/built_scene.h"
+#include "scene/built_system.h"
 
 namespace whirl_twin {
 
@@ -29,7 +30,7 @@ struct SystemAnalysis {
   const ModelInfo* model = nullptr;
   const Dynamics* dynamics = nullptr;  ///< the scene's
   std::vector<CoordinateInfo> coordinates;
-  Moment<double> moment;                ///< the scene's start
+  EvaluationPoint<double> moment;       ///< the scene's start
   std::optional<double> speed;          ///< [rad/s], of the shaft at the start
   Eigen::VectorXd q, v;                 ///< the scene's initial state
   Eigen::VectorXd acceleration;         ///< [rad/s^2] or [m/s^2], there, with what the inputs do
@@ -43,7 +44,7 @@ struct SystemAnalysis {
   Linearization linearization;
   Stability stability;  ///< of all coordinates
 
-  /// The motion that is judged where loads or coefficients alternate with a period.
+  /// The motion whose stability is evaluated where loads or coefficients alternate with a period.
   std::optional<PeriodicMotion> periodic;
   /// They alternate, and the verdict is that of the motion under their mean only.
   bool of_mean_loads = false;
@@ -54,23 +55,24 @@ struct SystemAnalysis {
   std::optional<RotorSheet> sheet;          ///< of a flexible rotor
   std::string uncertain_because;            ///< the verdict on that; "": it is certain
   std::optional<double> instability_speed;  ///< [rad/s]
-  std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< seen from the initial speed
-  double critical_speeds_to = 0.0;                          ///< [rad/s], looked for; infinity: all
+  std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< with margins at the initial speed
+  double critical_speeds_to = 0.0;         ///< [rad/s], searched up to; infinity: all
   std::size_t critical_speeds_beyond = 0;  ///< that its equations have, where they do not hold
-  double highest_speed = 0.0;              ///< [rad/s], that a reduced rotor holds to
+  double highest_speed = 0.0;              ///< [rad/s], up to which a reduced rotor is valid
   DataSpeeds tables = {};                  ///< of its bearings and pedestals
   std::optional<CrossCouplingMargin> cross_coupling;  ///< at the initial speed
   std::vector<SteadySpeed> steady_speeds;             ///< on its motor
-  /// Of a stable motion, the nearest first; nothing where it was not looked for.
+  /// Of a stable motion, the nearest first; nothing where it was not searched.
   std::optional<std::vector<ParameterMargin>> parameter_margins;
-  std::optional<DecrementAmplitude> decrement_amplitude;  ///< likewise; nothing: none vibrates
-  std::optional<SpreadMargin> spread_margin;  ///< of a steady motion, where its numbers are spread
+  std::optional<LinearDampingLimit> decrement_amplitude;  ///< likewise; nothing: none vibrates
+  std::optional<RobustStabilityMargin>
+      spread_margin;  ///< of a steady motion, where its numbers are spread
 };
 
-/// Which systems have the margins of their numbers looked for (isQuickToSearch).
+/// Of which systems the instability points of the parameters are searched (isQuickToSearch).
 enum class ParameterSearch { kWhereQuick, kOfAll };
 
-/// `modes`: how many are looked at of more than kMostCompleteCoordinates. Throws RunFailure where
+/// `modes`: how many are computed of more than kMaxCompleteCoordinates. Throws RunFailure where
 /// the numbers of the scene are too large to be analysed.
 SystemAnalysis analyze(const BuiltScene& scene, std::size_t system,
                        ParameterSearch search = ParameterSearch::kWhereQuick,
@@ -80,5 +82,43 @@ Json json(const SystemAnalysis& analysis);
 std::string text(const SystemAnalysis& analysis);
 /// Modes, eigenvalues, critical speeds, and the numbers that stability is lost by.
 CsvTables tables(const SystemAnalysis& analysis);
+
+/// Of M q'' + K q = 0 at rest in the operating point.
+struct FrequencyBounds {
+  Eigen::VectorXd exact;            ///< [rad/s], ascending
+  Eigen::MatrixXd shapes;           ///< mode shapes, largest entry 1, columns [n x n]
+  std::optional<double> dunkerley;  ///< [rad/s], not above the lowest
+  std::string inputError;           ///< why there is no lower bound
+  std::optional<double> rayleigh;   ///< [rad/s], of a static deflection: not below the lowest
+  std::optional<double> ritz;       ///< [rad/s], of that and its own deflection as assumed modes
+  std::size_t iterations = 0;       ///< matrix iteration from the static deflection
+  double iterated = 0.0;            ///< [rad/s], what it came to
+};
+
+struct SteadyResponse {
+  double frequency = 0.0;     ///< [rad/s], of the load
+  Eigen::VectorXd amplitude;  ///< of the small motion about the operating point
+  Eigen::VectorXd lag;        ///< [rad], behind cos(frequency t)
+  std::string inputError;     ///< why there is none
+};
+
+struct MethodAnalysis {
+  bool conservative_form = false;    ///< no damping, gyroscopic or circulatory terms matter below
+  std::string stiffness_form;        ///< "positive definite", ...
+  Eigen::MatrixXd rigid_body_modes;  ///< columns
+  std::optional<Eigen::MatrixXd> flexibility;  ///< influence coefficients
+  std::optional<FrequencyBounds> bounds;
+  std::vector<RouthCondition> routh_conditions;
+  std::vector<SteadyResponse> responses;
+  Eigen::VectorXd virtual_work;       ///< [J], at rest in the initial place, of unit displacements
+  std::vector<Reaction> reactions;    ///< at the initial state
+  std::vector<Condition> conditions;  ///< there
+};
+
+/// `analysis` as made by analyze().
+MethodAnalysis analyzeMethods(const BuiltSystem& system, const SystemAnalysis& analysis);
+
+Json json(const MethodAnalysis& methods, const SystemAnalysis& analysis);
+std::string text(const MethodAnalysis& methods, const SystemAnalysis& analysis);
 
 }  // namespace whirl_twin

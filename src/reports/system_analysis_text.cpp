@@ -5,16 +5,14 @@
 
 #include "algebra/constants.h"
 #include "analysis/stability_margins.h"
-#include "reports/matrix_text.h"
+#include "reports/report_values.h"
 #include "reports/system_analysis.h"
-#include "reports/table_speeds.h"
-#include "reports/verdict_text.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kMostShown = 10;  // numbers that stability is lost by
+constexpr std::size_t kMaxCriticalParameters = 10;  // numbers that stability is lost by
 constexpr const char* kPrime[] = {"", "'", "''"};
 constexpr const char* kPer[] = {"", "/s", "/s^2"};
 
@@ -51,10 +49,10 @@ std::string values(const SystemAnalysis& a, const Eigen::VectorXd& x, int deriva
     return largestValues(a, x, derivative);
   }
   std::string out;
-  for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
-    out += fmt::format("{}{}{} = {:.6g} {}{}", i == 0 ? "" : ", ", a.coordinates[i].name,
-                       kPrime[derivative], x[static_cast<Eigen::Index>(i)], a.coordinates[i].unit,
-                       kPer[derivative]);
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const CoordinateInfo& c = a.coordinates[static_cast<std::size_t>(i)];
+    out += fmt::format("{}{}{} = {:.6g} {}{}", i == 0 ? "" : ", ", c.name, kPrime[derivative], x[i],
+                       c.unit, kPer[derivative]);
   }
   return out;
 }
@@ -62,7 +60,7 @@ std::string values(const SystemAnalysis& a, const Eigen::VectorXd& x, int deriva
 std::string startText(const SystemAnalysis& a) {
   std::string out = fmt::format("  at t = {:g} s", a.moment.time);
   if (a.speed) {
-    out += fmt::format(", shaft at {:g} rad/s ({:.4g} rpm)", *a.speed, *a.speed * 30.0 / kPi);
+    out += fmt::format(", shaft at {:g} rad/s ({:.4g} rpm)", *a.speed, *a.speed / kRpm);
   }
   out += fmt::format("\n{}    position        {}\n",
                      a.speed ? beyondLine(a.tables, *a.speed, *a.speed) : std::string(),
@@ -73,14 +71,6 @@ std::string startText(const SystemAnalysis& a) {
                      a.energies.kinetic, a.energies.potential, a.energies.jacobi);
   return out + fmt::format("    power           dissipated {:.6g} W, supplied {:.6g} W\n",
                            a.energies.dissipated_power, a.energies.input_power);
-}
-
-std::string names(const SystemAnalysis& a, const CyclicCoordinates::Places& places) {
-  std::string out;
-  for (const Eigen::Index i : places) {
-    out += (out.empty() ? "" : ", ") + a.coordinates[static_cast<std::size_t>(i)].name;
-  }
-  return out;
 }
 
 /// Which coordinates only turn or slide along, and what they keep.
@@ -99,8 +89,12 @@ std::string cyclicText(const SystemAnalysis& a) {
     out += fmt::format("  cyclic: {}, its momentum {:.9g} {} is conserved\n", c.name, a.momenta[i],
                        c.isAngle() ? "N m s" : "N s");
   }
-  return driven.empty() ? out
-                        : out + fmt::format("  cyclic, driven or damped: {}\n", names(a, driven));
+  const auto name_of = [&](Eigen::Index i) {
+    return a.coordinates[static_cast<std::size_t>(i)].name;
+  };
+  return driven.empty()
+             ? out
+             : out + "  cyclic, driven or damped: " + joined(driven, name_of, ", ") + "\n";
 }
 
 /// ", phi' = 6 rad/s" of a steady motion; "" at rest.
@@ -169,10 +163,9 @@ std::string modesText(const SystemAnalysis& a) {
     return out;
   }
   out += "  eigenvalues, 1/s\n";
-  for (const auto& root : a.stability.eigenvalues) {
-    out += fmt::format("    {:>14.6g} {:+.6g}i\n", root.real(), root.imag());
-  }
-  return out;
+  return out + joined(a.stability.eigenvalues, [](const auto& root) {
+           return fmt::format("    {:>14.6g} {:+.6g}i\n", root.real(), root.imag());
+         });
 }
 
 /// Up to which amplitude the decrement is that of small motions.
@@ -180,7 +173,7 @@ std::string decrementText(const SystemAnalysis& a) {
   if (!a.decrement_amplitude) {
     return "";
   }
-  const DecrementAmplitude& of = *a.decrement_amplitude;
+  const LinearDampingLimit& of = *a.decrement_amplitude;
   if (std::isinf(of.amplitude)) {
     return "      valid for any amplitude\n";
   }
@@ -214,7 +207,7 @@ std::string stabilityText(const SystemAnalysis& a) {
   out += s.eigenvalues.empty() ? std::string("    polynomial      none: no mode remains\n")
          : s.polynomial.empty()
              ? fmt::format("    polynomial      left out beyond {} coordinates\n",
-                           kMostExactCoordinates)
+                           kMaxExactCoordinates)
              : fmt::format("    polynomial      {:.6g}\n", fmt::join(s.polynomial, "  "));
   if (s.omitted > 0) {
     out += s.routh.verdict == Verdict::kUncertain
@@ -253,15 +246,13 @@ std::string criticalSpeedsText(const SystemAnalysis& a) {
   for (const auto& c : a.critical_speeds) {
     const bool too_near = c.separation_margin < c.required_separation_margin;
     out += fmt::format(
-        "    {:>12.6g} {:>11.6g}  {:<9} {:>15} {:>9} % {:>9.4g} %{}{}\n", c.speed,
-        c.speed * 30.0 / kPi, c.direction,
+        "    {:>12.6g} {:>11.6g}  {:<9} {:>15} {:>9} % {:>9.4g} %{}{}\n", c.speed, c.speed / kRpm,
+        c.direction,
         std::isinf(c.amplification_factor) ? "undamped" : defined(c.amplification_factor, "-"),
         defined(c.separation_margin, "-"), c.required_separation_margin,
         too_near ? "  too near" : "", beyondMark(a.tables, c.speed));
   }
-  for (const std::string& condition : separationConditions()) {
-    out += fmt::format("      {}\n", condition);
-  }
+  out += joined(separationConditions(), [](const auto& one) { return "      " + one + "\n"; });
   if (std::any_of(a.critical_speeds.begin(), a.critical_speeds.end(),
                   [&](const auto& c) { return !a.tables.covers(c.speed); })) {
     out += "    some " + beyondText(a.tables) + "\n";
@@ -284,7 +275,7 @@ std::string quantity(double value, const std::string& unit) {
   return fmt::format("{:.6g}{}", value, unit == "-" ? "" : " " + unit);
 }
 
-std::string lossText(const SystemAnalysis& a, const LossOfStability& loss) {
+std::string lossText(const SystemAnalysis& a, const InstabilityPoint& loss) {
   switch (loss.kind) {
     case LossKind::kFlutter:
       return fmt::format("{} at {:.6g} rad/s", lossName(loss.kind, *a.dynamics), loss.frequency);
@@ -319,8 +310,9 @@ std::string parameterMarginsText(const SystemAnalysis& a) {
       resolution.reach, 100.0 * resolution.stride);
   std::size_t shown = 0;
   for (const ParameterMargin& margin : margins) {
-    if (++shown > kMostShown) {
-      return out + fmt::format("    and {} more (--json)\n", margins.size() - kMostShown);
+    if (++shown > kMaxCriticalParameters) {
+      return out +
+             fmt::format("    and {} more (--json)\n", margins.size() - kMaxCriticalParameters);
     }
     out += fmt::format("    {:<24} {:>10}  at {:<18} now {:<18} {}\n", margin.parameter,
                        std::isnan(margin.change) ? std::string("from 0")
@@ -335,7 +327,7 @@ std::string spreadMarginText(const SystemAnalysis& a) {
   if (!a.spread_margin) {
     return "";
   }
-  const SpreadMargin& margin = *a.spread_margin;
+  const RobustStabilityMargin& margin = *a.spread_margin;
   return fmt::format(
       "  {} of {} samples within the spread are unstable, the lowest decay rate is {:.4g} 1/s{}\n",
       margin.beyond(0.0), margin.decay_rates.size(), margin.lowest_decay_rate,
@@ -346,8 +338,8 @@ std::string steadySpeedsText(const SystemAnalysis& a) {
   std::string out = a.steady_speeds.empty() ? "" : "  steady speeds with its motor\n";
   for (const SteadySpeed& steady : a.steady_speeds) {
     out += fmt::format("    {:.6g} rad/s ({:.4g} rpm), torque {:.4g} N m: {}{}\n", steady.speed,
-                       steady.speed * 30.0 / kPi, steady.torque,
-                       steady.stable ? "stable" : "unstable", beyondMark(a.tables, steady.speed));
+                       steady.speed / kRpm, steady.torque, steady.stable ? "stable" : "unstable",
+                       beyondMark(a.tables, steady.speed));
   }
   return out;
 }

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "accuracy/reference_trajectory.h"
 #include "accuracy/step_choice.h"
+#include "algebra/constants.h"
 #include "integration/step_methods.h"
 #include "models/model_registry.h"
-#include "reports/step_timing.h"
-#include "scene/surroundings.h"
+#include "reports/step_cost.h"
+#include "scene/model_context.h"
 #include "scene/system_setup.h"
 
 namespace whirl_twin {
@@ -20,15 +20,15 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::int64_t kCoarsest = 32;  // steps of the scene in the coarsest step tried
-constexpr int kMostSubsteps = 64;
+constexpr int kMaxSubsteps = 64;
 constexpr std::int64_t kSamples = 256;
 constexpr double kWanted = 1.0e-12;  // of the reference
 constexpr double kGoodThroughout = 1.0e-5;
 constexpr double kReferenceBudget = 4.0e8;  // evaluations
-/// A disturbance of the start, in parts of the motion.
+/// A perturbation of the start, relative to the motion.
 constexpr double kDisturbance = 1.0e-8;
-constexpr double kMostStepsOfRun = 4.0e6;  // of a method in one run
-constexpr double kPatience = 1.5;          // s, for one run
+constexpr double kMaxStepsOfRun = 4.0e6;  // of a method in one run
+constexpr double kPatience = 1.5;         // s, for one run
 
 /// The methods that suit the system, from the lowest order to the exact one.
 std::vector<StepMethod> methodsOf(const Scene& one) {
@@ -52,15 +52,15 @@ std::vector<StepSetting> ladder(const Scene& one, const std::string& integrator,
       settings.push_back({integrator, multiple * one.step, 1});
     }
   }
-  for (int substeps = 1; substeps <= kMostSubsteps && substeps * steps <= kMostStepsOfRun;
+  for (int substeps = 1; substeps <= kMaxSubsteps && substeps * steps <= kMaxStepsOfRun;
        substeps *= 2) {
     settings.push_back({integrator, one.step, substeps});
   }
   return settings;
 }
 
-/// What settings are judged by, and for how many samples it can.
-struct Judge {
+/// What settings are compared with, and the number of samples where that is accurate.
+struct ReferenceRun {
   StepSetting setting, other;
   Trajectory trajectory;
   std::size_t samples = 0;
@@ -69,49 +69,50 @@ struct Judge {
 };
 
 /// Of a small disturbance of the start.
-double growth(const Scene& one, const Judge& judge, std::int64_t duration, std::int64_t interval) {
-  std::vector<double> largest(judge.trajectory.dof);
-  for (std::size_t i = 0; i < judge.trajectory.coordinates.size(); ++i) {
+double growth(const Scene& one, const ReferenceRun& reference, std::int64_t duration,
+              std::int64_t interval) {
+  std::vector<double> largest(reference.trajectory.dof);
+  for (std::size_t i = 0; i < reference.trajectory.coordinates.size(); ++i) {
     double& own = largest[i % largest.size()];
-    own = std::max(own, std::fabs(judge.trajectory.coordinates[i]));
+    own = std::max(own, std::fabs(reference.trajectory.coordinates[i]));
   }
   for (std::size_t i = 0; i < largest.size(); ++i) {
     largest[i] =
-        kDisturbance * (judge.trajectory.angular[i] ? std::min(largest[i], 1.0) : largest[i]);
+        kDisturbance * (reference.trajectory.angular[i] ? std::min(largest[i], 1.0) : largest[i]);
   }
   const Trajectory disturbed =
-      trajectory(withSetting(one, judge.setting), duration, interval, largest);
-  return trajectoryError(disturbed, judge.trajectory, judge.trajectory.samples()).position /
+      trajectory(withSetting(one, reference.setting), duration, interval, largest);
+  return trajectoryError(disturbed, reference.trajectory, reference.trajectory.samples()).position /
          kDisturbance;
 }
 
 /// All samples where the reference is good; of a motion that magnifies rounding those up to where
 /// it is good yet, at the best level that half of them keep.
-Judge judge(const Scene& one, std::int64_t duration, std::int64_t interval) {
+ReferenceRun referenceRun(const Scene& one, std::int64_t duration, std::int64_t interval) {
   SystemSpec spec = one.systems.front();
   const ModelSetup& setup = setupOf(spec, surroundingsOf(one, spec)).made;
   const auto all = static_cast<std::size_t>(duration / interval) + 1;
   EvaluationBudget budget(kReferenceBudget, one, setup);
   const ReferenceTrajectory reference = referenceOf(one, setup, interval, all, kWanted, budget);
-  Judge j{reference.setting, reference.other,
-          trajectory(withSetting(one, reference.setting), duration, interval)};
-  j.samples = all;
-  j.error = reference.error(all - 1);
-  if (!(j.error <= kGoodThroughout)) {
+  ReferenceRun run{reference.setting, reference.other,
+                   trajectory(withSetting(one, reference.setting), duration, interval)};
+  run.samples = all;
+  run.error = reference.error(all - 1);
+  if (!(run.error <= kGoodThroughout)) {
     for (const double level : {1.0e-10, 1.0e-8, 1.0e-6, 1.0e-4}) {
-      j.samples = reference.lastWithin(level) + 1;
-      j.error = level;
-      if (2 * j.samples >= all) {
+      run.samples = reference.lastWithin(level) + 1;
+      run.error = level;
+      if (2 * run.samples >= all) {
         break;
       }
     }
   }
-  j.growth = growth(one, j, duration, interval);
-  return j;
+  run.growth = growth(one, run, duration, interval);
+  return run;
 }
 
 /// The rows of one method: from coarse to fine until its error is that of the reference.
-void measureErrors(const Scene& one, const StepMethod& method, const Judge& judge,
+void measureErrors(const Scene& one, const StepMethod& method, const ReferenceRun& reference,
                    std::int64_t duration, std::int64_t interval, TradeoffReport& report,
                    const std::function<void()>& stepDone) {
   const double steps = static_cast<double>(duration) / static_cast<double>(one.step);
@@ -124,16 +125,15 @@ void measureErrors(const Scene& one, const StepMethod& method, const Judge& judg
       const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
       TradeoffRow row;
       row.setting = setting;
-      row.error = trajectoryError(t, judge.trajectory, judge.samples);
-      row.below = row.error.position < judge.error;
-      row.energy_drift =
-          t.status == StepStatus::kOk ? t.energy_drift : std::numeric_limits<double>::infinity();
+      row.error = trajectoryError(t, reference.trajectory, reference.samples);
+      row.below = row.error.position < reference.error;
+      row.energy_drift = t.status == StepStatus::kOk ? t.energy_drift : kInfinity;
       row.momentum_drift = t.momentum_drift;
       row.stable = t.status == StepStatus::kOk && row.error.position < 10.0;
-      const bool good = row.error.position <= 4.0 * judge.error;
-      row.error.position = std::max(row.error.position, judge.error);
+      const bool good = row.error.position <= 4.0 * reference.error;
+      row.error.position = std::max(row.error.position, reference.error);
       report.rows.push_back(row);
-      // Finer ones would show the reference's error, or rounding; or nobody waits for them.
+      // Finer ones would show the reference's error, or rounding; or take too long.
       finest = setting.step == one.step && (good || taken.count() > kPatience);
     }
     stepDone();
@@ -198,7 +198,7 @@ TradeoffReport tradeoffReport(const Scene& one, std::int64_t duration,
       std::max<std::int64_t>(1, duration / kSamples / coarsest) * coarsest;
   duration = std::max<std::int64_t>(1, (duration + interval - 1) / interval) * interval;
 
-  const Judge judged_by = judge(one, duration, interval);
+  const ReferenceRun reference = referenceRun(one, duration, interval);
 
   TradeoffReport report;
   report.scene = one.name;
@@ -206,11 +206,11 @@ TradeoffReport tradeoffReport(const Scene& one, std::int64_t duration,
   report.model = spec.model;
   report.tolerance = spec.tolerance;
   report.duration = 1.0e-9 * static_cast<double>(duration);
-  report.reference = judged_by.setting;
-  report.checked_by = judged_by.other;
-  report.reference_error = judged_by.error;
-  report.compared = judged_by.trajectory.interval * static_cast<double>(judged_by.samples - 1);
-  report.growth = judged_by.growth;
+  report.reference = reference.setting;
+  report.checked_by = reference.other;
+  report.reference_error = reference.error;
+  report.compared = reference.trajectory.interval * static_cast<double>(reference.samples - 1);
+  report.growth = reference.growth;
   const StepChoice automatic = chooseStep(one);
   report.automatic = fmt::format("{}, {}", automatic.integrator,
                                  stepsText(automatic.integrator, automatic.substeps));
@@ -222,7 +222,7 @@ TradeoffReport tradeoffReport(const Scene& one, std::int64_t duration,
     all += static_cast<double>(ladder(one, method.name, steps).size());
   }
   for (const StepMethod& method : methods) {
-    measureErrors(one, method, judged_by, duration, interval, report,
+    measureErrors(one, method, reference, duration, interval, report,
                   [&] { progress(0.8 * ++done / all); });
   }
   std::vector<Scene> settings;

@@ -39,7 +39,7 @@ struct TradeoffRow {
 struct TradeoffReport {
   std::string scene, system, model;
   double duration = 0.0;  ///< [s]
-  double compared = 0.0;  ///< [s], from the start: beyond, no trajectory can be promised
+  double compared = 0.0;  ///< [s], from the start: beyond, no trajectory is reproducible
   double growth = 0.0;    ///< [-], of a small disturbance over the duration
   StepSetting reference;
   StepSetting checked_by;         ///< another method, with which the reference was compared
@@ -51,7 +51,7 @@ struct TradeoffReport {
   std::string automatic;  ///< what `auto` takes: "gauss_legendre_6, 1 a step"
 };
 
-/// For a scene of one system. duration [ns]. progress is told the share done, 0 to 1.
+/// For a scene of one system. duration [ns]. progress gets the fraction done, 0 to 1.
 TradeoffReport tradeoffReport(const Scene& one, std::int64_t duration,
                               const std::function<void(double)>& progress);
 

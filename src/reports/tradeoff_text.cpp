@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "integration/step_methods.h"
 #include "reports/tradeoff_report.h"
 
 namespace whirl_twin {
@@ -24,6 +27,20 @@ std::string tradeoffRowText(const TradeoffReport& report, std::size_t index) {
       row.stable ? errorText(row.error.energy) : "-",
       row.stable ? errorText(row.energy_drift) : "-", row.step_cost, row.cost_spread, real_time,
       row.pareto ? "*" : "", report.recommended == index ? " <- recommended" : "");
+}
+
+/// Rounding is drawn here where an error is zero.
+constexpr double kErrorDrawnForZero = 1.0e-16;
+
+/// Each method has one, whichever others there are: the twelfth is the first again.
+Pen methodPen(const std::string& integrator) {
+  static constexpr std::array kInks{ink::kBlue,   ink::kVermilion, ink::kGreen, ink::kPurple,
+                                    ink::kOrange, ink::kSkyBlue,   ink::kBrown, ink::kGrey,
+                                    ink::kOlive,  ink::kNavy,      ink::kBlack};
+  const auto& methods = stepMethods();
+  const auto method = std::find_if(methods.begin(), methods.end(),
+                                   [&](const StepMethod& m) { return m.name == integrator; });
+  return {kInks[static_cast<std::size_t>(method - methods.begin()) % kInks.size()], 1.8};
 }
 
 }  // namespace
@@ -61,42 +78,29 @@ std::string text(const TradeoffReport& r) {
 }
 
 Json rowJson(const TradeoffReport& report, const TradeoffRow& row) {
-  Json j;
-  j["system"] = report.system;
-  j["integrator"] = row.setting.integrator;
-  j["step"] = 1.0e-9 * static_cast<double>(row.setting.step);
-  j["substeps"] = row.setting.substeps;
-  j["error"] = row.error.position;
-  j["below_reference"] = row.below;
-  j["errors"] = {{"position", row.error.position},
-                 {"radius", row.error.radius},
-                 {"phase", row.error.phase},
-                 {"energy", row.error.energy}};
-  j["worst_error"] = row.worst;
-  j["ns_per_step"] = row.step_cost;
-  j["ns_per_step_spread"] = row.cost_spread;
-  j["cpu_per_simulated_second"] = row.cpuPerSecond();
-  j["real_time_factor"] = 1.0 / row.cpuPerSecond();
-  j["energy_drift"] = row.energy_drift;
-  j["momentum_drift"] = row.momentum_drift;
-  j["stable"] = row.stable;
-  j["pareto"] = row.pareto;
-  return j;
+  return {{"system", report.system},
+          {"integrator", row.setting.integrator},
+          {"step", 1.0e-9 * static_cast<double>(row.setting.step)},
+          {"substeps", row.setting.substeps},
+          {"error", row.error.position},
+          {"below_reference", row.below},
+          {"errors",
+           {{"position", row.error.position},
+            {"radius", row.error.radius},
+            {"phase", row.error.phase},
+            {"energy", row.error.energy}}},
+          {"worst_error", row.worst},
+          {"ns_per_step", row.step_cost},
+          {"ns_per_step_spread", row.cost_spread},
+          {"cpu_per_simulated_second", row.cpuPerSecond()},
+          {"real_time_factor", 1.0 / row.cpuPerSecond()},
+          {"energy_drift", row.energy_drift},
+          {"momentum_drift", row.momentum_drift},
+          {"stable", row.stable},
+          {"pareto", row.pareto}};
 }
 
 Json summaryJson(const TradeoffReport& r) {
-  Json j;
-  j["system"] = r.system;
-  j["model"] = r.model;
-  j["duration"] = r.duration;
-  j["compared_until"] = r.compared;
-  j["disturbance_growth"] = r.growth;
-  j["tolerance"] = r.tolerance;
-  j["reference"] = {{"integrator", r.reference.integrator},
-                    {"step", 1.0e-9 * static_cast<double>(r.reference.step)},
-                    {"substeps", r.reference.substeps},
-                    {"checked_by", r.checked_by.integrator},
-                    {"error", r.reference_error}};
   Json stable = Json::object();
   for (const TradeoffRow& row : r.rows) {
     const std::string& name = row.setting.integrator;
@@ -106,15 +110,26 @@ Json summaryJson(const TradeoffReport& r) {
       stable.erase(name);
     }
   }
-  j["largest_stable_step"] = stable;
+  Json j{{"system", r.system},
+         {"model", r.model},
+         {"duration", r.duration},
+         {"compared_until", r.compared},
+         {"disturbance_growth", r.growth},
+         {"tolerance", r.tolerance},
+         {"reference",
+          {{"integrator", r.reference.integrator},
+           {"step", 1.0e-9 * static_cast<double>(r.reference.step)},
+           {"substeps", r.reference.substeps},
+           {"checked_by", r.checked_by.integrator},
+           {"error", r.reference_error}}},
+         {"largest_stable_step", stable},
+         {"integrator", nullptr}};
   if (r.recommended) {
     const StepSetting& best = r.rows[*r.recommended].setting;
     j["integrator"] = best.integrator;
     j["step"] = 1.0e-9 * static_cast<double>(best.step);
     j["substeps"] = best.substeps;
     j["error"] = r.rows[*r.recommended].worst;
-  } else {
-    j["integrator"] = nullptr;
   }
   j["reason"] = r.reason;
   j["auto"] = r.automatic;
@@ -139,6 +154,54 @@ std::string csv(const std::vector<TradeoffReport>& reports) {
     }
   }
   return out;
+}
+
+Figure figure(const TradeoffReport& report) {
+  Chart work, order;
+  work.title = "work-precision diagram";
+  work.x = {"CPU time per simulated second (s)", true, false};
+  work.y = {"largest relative position error", true, false};
+  order.title = "error over the method's step";
+  order.x = {"step of the method (s)", true, false};
+  order.y = work.y;
+  for (const TradeoffRow& row : report.rows) {
+    if (work.series.empty() || work.series.back().name != row.setting.integrator) {
+      for (Chart* chart : {&work, &order}) {
+        Series series;
+        series.name = chart == &work ? row.setting.integrator : "";  // of both, once
+        series.pen = methodPen(row.setting.integrator);
+        series.marks = Marks::kDots;
+        chart->series.push_back(series);
+      }
+    }
+    if (row.stable) {
+      const double error = std::max(row.error.position, kErrorDrawnForZero);
+      work.series.back().x.push_back(row.cpuPerSecond());
+      work.series.back().y.push_back(error);
+      order.series.back().x.push_back(row.methodStep());
+      order.series.back().y.push_back(error);
+    }
+  }
+  if (report.recommended) {
+    const TradeoffRow& row = report.rows[*report.recommended];
+    Series ring{
+        "recommended", {row.cpuPerSecond()}, {std::max(row.error.position, kErrorDrawnForZero)}};
+    ring.pen = Pen{ink::kBlack, 2.0};
+    ring.line = false;
+    ring.marks = Marks::kRings;
+    work.series.push_back(ring);
+  }
+  for (Chart* chart : {&work, &order}) {
+    chart->horizontal = {{report.tolerance, fmt::format("tolerance {:g}", report.tolerance)},
+                         {report.reference_error, "reference"}};
+  }
+  Figure figure;
+  figure.title = fmt::format("{}: {} ({}), {:g} s", report.scene, report.system, report.model,
+                             report.compared);
+  figure.charts = {work, order};
+  figure.width = 940;
+  figure.chart_height = 480;
+  return figure;
 }
 
 }  // namespace whirl_twin

@@ -7,15 +7,15 @@
 #include <complex>
 
 #include "algebra/constants.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 
 namespace whirl_twin {
 
 namespace {
 
 constexpr double kTakesPart = 0.1;   // in a combination, of its largest, to be named
-constexpr double kMuchBeyond = 2.0;  // what is left over what the probes' noise makes
+constexpr double kMuchBeyond = 2.0;  // the residual over what the probes' noise makes
 constexpr double kSameSpeed = 0.01;  // of a speed
 
 /// Does a force act at the station as an unbalance would?
@@ -29,38 +29,27 @@ bool actsAt(const ShaftForce& force, const Station& station) {
 
 std::vector<BalancingPlane> planesOf(const RotorSystem& system,
                                      const std::vector<std::string>& wanted) {
-  std::vector<std::string> names;
-  std::vector<BalancingPlane> all, unbalanced;
+  std::vector<BalancingPlane> planes;
+  for (const std::string& name : wanted) {
+    planes.push_back({name, system.stations[system.stationNamed("--planes", name)]});
+  }
+  if (!planes.empty()) {
+    return planes;
+  }
+  std::vector<BalancingPlane> all;
   for (const Station& station : system.stations) {
-    names.push_back(station.name);
     all.push_back({station.name, station});
     if (std::any_of(system.rotor.forces.begin(), system.rotor.forces.end(),
                     [&](const ShaftForce& force) { return actsAt(force, station); })) {
-      unbalanced.push_back(all.back());
+      planes.push_back(all.back());
     }
   }
-  if (wanted.empty()) {
-    return unbalanced.empty() ? all : unbalanced;
-  }
-  std::vector<BalancingPlane> planes;
-  for (const std::string& name : wanted) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-      throw Refusal(fmt::format("--planes: '{}' has no station '{}'{}", system.name, name,
-                                hint(name, names)));
-    }
-    planes.push_back(all[static_cast<std::size_t>(found - names.begin())]);
-  }
-  return planes;
+  return planes.empty() ? all : planes;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-/// Who takes part in a combination that is not told; of planes and run-outs each, beside the
-/// largest of their kind.
-std::string partners(const UnbalanceReport& report, const UntoldCombination& untold) {
+/// The members of a combination that is not identifiable; of planes and run-outs each, relative to
+/// the largest of their kind.
+std::string partners(const UnbalanceReport& report, const UnidentifiableCombination& untold) {
   std::vector<std::string> names;
   const auto collect = [&](const std::vector<std::complex<double>>& parts,
                            const std::vector<std::string>& of, const char* what) {
@@ -76,7 +65,7 @@ std::string partners(const UnbalanceReport& report, const UntoldCombination& unt
   };
   collect(untold.planes, report.planes, "the unbalance at");
   collect(untold.run_outs, report.probes, "the run-out under");
-  return listed(names);
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 void addUnbalanceNotes(UnbalanceReport& report) {
@@ -91,7 +80,7 @@ void addUnbalanceNotes(UnbalanceReport& report) {
                   : "some planes have linearly dependent effects at these speeds. Use fewer planes "
                     "(--planes), or a range with another critical speed"));
     std::vector<std::string> said;
-    for (const UntoldCombination& untold : found.untold) {
+    for (const UnidentifiableCombination& untold : found.untold) {
       const std::string who = partners(report, untold);
       if (std::find(said.begin(), said.end(), who) == said.end()) {
         said.push_back(who);
@@ -123,16 +112,11 @@ double angleDeviation(const PhasorEstimate& estimate) {
 }
 
 Json massJson(const UnbalanceReport& report, const PhasorEstimate& estimate, double sign) {
-  if (!estimate.told) {
-    return {{"mass_radius", nullptr},
-            {"angle", nullptr},
-            {"mass_radius_deviation", nullptr},
-            {"angle_deviation", nullptr}};
-  }
-  return {{"mass_radius", std::abs(estimate.value)},
-          {"angle", angleOf(report, sign * estimate.value)},
-          {"mass_radius_deviation", estimate.deviation},
-          {"angle_deviation", angleDeviation(estimate)}};
+  const bool known = estimate.told;
+  return {{"mass_radius", known ? Json(std::abs(estimate.value)) : Json()},
+          {"angle", known ? Json(angleOf(report, sign * estimate.value)) : Json()},
+          {"mass_radius_deviation", known ? Json(estimate.deviation) : Json()},
+          {"angle_deviation", known ? Json(angleDeviation(estimate)) : Json()}};
 }
 
 std::string massLine(const UnbalanceReport& report, std::size_t plane, double sign) {
@@ -175,12 +159,12 @@ UnbalanceReport unbalanceReport(const RotorSystem& system, const RotorRecord& re
       fit.take(reading);
       return;
     }
-    outside = reading;  // the rotor goes on, and nothing is asked of it
+    outside = reading;  // the rotor continues, and this is not used
     outside.values.setConstant(std::nan(""));
     fit.take(outside);
   });
   if (used == 0) {
-    throw Refusal(fmt::format(
+    throw InputError(fmt::format(
         "{}: expected samples with a known angle of the shaft from {:g} to {:g} rad/s, found none "
         "among {} samples",
         record.log(), request.from, request.to, report.counts.samples + report.counts.no_angle));
@@ -212,19 +196,13 @@ Json json(const UnbalanceReport& report) {
                  : Json();
   }
   json["rank_deficiency"] = found.untold.size();
-  json["undetermined"] = Json::array();
-  for (const UntoldCombination& untold : found.untold) {
-    json["undetermined"].push_back(partners(report, untold));
-  }
+  json["undetermined"] = listJson(found.untold, [&](const UnidentifiableCombination& untold) {
+    return partners(report, untold);
+  });
   json["lowest_speed"] = found.lowest_speed;
   json["highest_speed"] = found.highest_speed;
   json["duration"] = found.duration;
-  json["samples"] = found.samples;
-  json["samples_without_angle"] = report.counts.no_angle;
-  json["values_not_valid"] = report.counts.not_valid;
-  json["false_pulses"] = report.counts.false_pulses;
-  json["missing_pulses"] = report.counts.missing_pulses;
-  json["pulse_jitter"] = report.counts.jitter;
+  report.counts.addTo(json, found.samples);
   json["synchronous_rms"] = found.synchronous;
   json["residual_rms"] = found.noise;
   json["residual_beyond_noise"] = found.beyond_noise > 0.0 ? Json(found.beyond_noise) : Json();
@@ -274,10 +252,7 @@ std::string text(const UnbalanceReport& report) {
                                   -std::arg(one.value) / kDegree + 0.0)
                     : fmt::format("  {:<18} {:>14}\n", name, "unidentifiable");
   }
-  for (const std::string& note : report.notes) {
-    out += note + "\n";
-  }
-  return out;
+  return out + joined(report.notes, [](const std::string& note) { return note + "\n"; });
 }
 
 }  // namespace whirl_twin

@@ -1,5 +1,5 @@
 // What `twin balance --measured` shows: the unbalance of a running rotor from a log, the masses
-// that cancel it, and what the log does not tell.
+// that cancel it, and what is not identifiable from the log.
 #pragma once
 
 #include <string>
@@ -26,10 +26,10 @@ struct UnbalanceReport {
   double phase_mark = 0.0;  ///< [rad], on the shaft: angles count from it
   RecordCounts counts;
   UnbalanceEstimate estimate;
-  std::vector<std::string> notes;  ///< what the log does not tell, in words
+  std::vector<std::string> notes;  ///< what is not identifiable from the log
 };
 
-/// Throws Refusal for a plane that there is not and where no sample is within the speeds.
+/// Throws InputError for a plane that there is not and where no sample is within the speeds.
 UnbalanceReport unbalanceReport(const RotorSystem& system, const RotorRecord& record,
                                 const UnbalanceRequest& request);
 

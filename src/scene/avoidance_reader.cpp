@@ -12,18 +12,18 @@
 #include "analysis/separation_margin.h"
 #include "control/drive.h"
 #include "control/exclusion_bands.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "scene/built_system.h"
 #include "scene/held_rotor.h"
-#include "scene/surroundings.h"
+#include "scene/model_context.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr int kDigits = 6;  // of an edge in a message
+constexpr int kDigits = 6;  // significant digits of a band edge in a message
 
-/// An edge to kDigits digits, away from the band, so that it can be typed.
+/// Rounds an edge to kDigits digits, away from the band, so that it can be typed.
 double outward(double edge, bool upwards) {
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(edge))) + 1 - kDigits);
   const double count = edge / unit;
@@ -34,36 +34,36 @@ double outward(double edge, bool upwards) {
 }
 
 void readBands(const YAML::Node& list, const std::string& key, std::vector<SpeedBand>& bands,
-               Complaints& complaints) {
+               Diagnostics& diagnostics) {
   if (!list.IsSequence()) {
-    complaints.add(key, fmt::format("must be a list of speed bands, found {}", shown(list)));
+    diagnostics.add(key, fmt::format("must be a list of speed bands, found {}", shown(list)));
     return;
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
     const MapReader map(list[i], fmt::format("{}[{}]", key, i), {"from", "to"}, "key of a band",
-                        complaints);
+                        diagnostics);
     if (!map.usable()) {
       continue;
     }
     const SpeedBand band{map.number("from", Range::kPositive, "rad/s", std::nullopt),
-                         map.numberBetween("to", 0.0, kLargestSpeed, "rad/s", std::nullopt)};
+                         map.numberBetween("to", 0.0, kMaxSpeed, "rad/s", std::nullopt)};
     if (band.from > 0.0 && !band.empty()) {
       bands.push_back(band);
     } else if (band.from > 0.0 && band.to > 0.0) {
-      complaints.add(map.key("to"), fmt::format("must be greater than from, {} rad/s, found {}",
-                                                band.from, band.to));
+      diagnostics.add(map.key("to"), fmt::format("must be greater than from, {} rad/s, found {}",
+                                                 band.from, band.to));
     }
   }
 }
 
-/// That a drive neither starts nor is sent where it must not stay.
+/// Reports an initial or target speed of a drive inside a barred speed range.
 void checkSpeeds(const DriveSpec& drive, const std::string& key, std::int64_t start,
-                 Complaints& complaints) {
+                 Diagnostics& diagnostics) {
   const ExclusionBands avoid(drive.avoid);
   const auto check = [&](const std::string& at, double speed, double acceleration, double jerk) {
     const std::optional<SpeedBand> band = avoid.bandOf(speed, acceleration, jerk);
     if (band) {
-      complaints.add(
+      diagnostics.add(
           at,
           fmt::format(
               "must be outside the barred speed range from {0:.{2}g} to {1:.{2}g} rad/s, found {3}",
@@ -75,17 +75,17 @@ void checkSpeeds(const DriveSpec& drive, const std::string& key, std::int64_t st
   for (std::size_t i = 0; i < drive.profile.size(); ++i) {
     const SpeedMove& move = drive.profile[i];
     if (faultOf(move)) {
-      return;  // told already
+      return;  // reported before
     }
     fit = check(fmt::format("{}.profile[{}].speed", key, i), move.speed, move.max_acceleration,
                 move.max_jerk) &&
           fit;
   }
   if (fit) {
-    try {  // what only the whole profile shows
+    try {  // errors of the profile as a whole
       static_cast<void>(Drive(drive.speed, drive.angle, drive.profile, start, avoid));
-    } catch (const Refusal& error) {
-      complaints.add(key, error.what());
+    } catch (const InputError& error) {
+      diagnostics.add(key, error.what());
     }
   }
 }
@@ -94,7 +94,7 @@ void checkSpeeds(const DriveSpec& drive, const std::string& key, std::int64_t st
 
 std::vector<SpeedBand> criticalBands(const Scene& scene, std::size_t drive,
                                      std::optional<double> margin, const std::string& key,
-                                     Complaints& complaints) {
+                                     Diagnostics& diagnostics) {
   std::vector<SpeedBand> bands;
   for (const SystemSpec& system : scene.systems) {
     if (!system.setup || scene.driveOf(system) != drive) {
@@ -107,7 +107,7 @@ std::vector<SpeedBand> criticalBands(const Scene& scene, std::size_t drive,
         if (margin) {
           band = {critical.speed * (1.0 - *margin), critical.speed * (1.0 + *margin)};
         }
-        band.to = std::min(band.to, kLargestSpeed);
+        band.to = std::min(band.to, kMaxSpeed);
         if (!band.empty() && band.from > 0.0) {
           bands.push_back(band);
         }
@@ -115,46 +115,46 @@ std::vector<SpeedBand> criticalBands(const Scene& scene, std::size_t drive,
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      complaints.add(key, fmt::format("the critical speeds of systems.{} cannot be computed: {}",
-                                      system.name, error.what()));
+      diagnostics.add(key, fmt::format("the critical speeds of systems.{} cannot be computed: {}",
+                                       system.name, error.what()));
     }
   }
   return bands;
 }
 
 void readAvoidance(const YAML::Node& node, const std::string& key, std::size_t drive, Scene& scene,
-                   Complaints& complaints) {
+                   Diagnostics& diagnostics) {
   DriveSpec& spec = scene.drives[drive];
   const MapReader map(node, key, {"bands", "critical_speeds", "margin"}, "key of barred speeds",
-                      complaints);
+                      diagnostics);
   if (!map.usable()) {
     return;
   }
   if (spec.motor) {
-    complaints.add(key,
-                   "must not be given with a motor, whose speed is not prescribed: give avoid or "
-                   "critical_speeds to a controller of type speed");
+    diagnostics.add(key,
+                    "must not be given with a motor, whose speed is not prescribed: give avoid or "
+                    "critical_speeds to a controller of type speed");
     return;
   }
   if (map.has("bands")) {
-    readBands(map.at("bands"), map.key("bands"), spec.avoid, complaints);
+    readBands(map.at("bands"), map.key("bands"), spec.avoid, diagnostics);
   }
   const bool critical =
       map.choice("critical_speeds", {"false", "true"}, "true or false", "false") == "true";
   std::optional<double> margin;
   if (map.has("margin")) {
     margin =
-        map.numberBetween("margin", kLeastBandMargin, kMostBandMargin, "of a critical speed", 0.0);
+        map.numberBetween("margin", kMinBandMargin, kMaxBandMargin, "of a critical speed", 0.0);
     if (!critical) {
-      complaints.add(map.key("margin"), "needs critical_speeds: true");
+      diagnostics.add(map.key("margin"), "needs critical_speeds: true");
     }
   }
   if (critical) {
     const std::vector<SpeedBand> found =
-        criticalBands(scene, drive, margin, map.key("critical_speeds"), complaints);
+        criticalBands(scene, drive, margin, map.key("critical_speeds"), diagnostics);
     spec.avoid.insert(spec.avoid.end(), found.begin(), found.end());
   }
-  checkSpeeds(spec, key.substr(0, key.rfind('.')), scene.time, complaints);
+  checkSpeeds(spec, key.substr(0, key.rfind('.')), scene.time, diagnostics);
 }
 
 }  // namespace whirl_twin

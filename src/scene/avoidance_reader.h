@@ -1,6 +1,5 @@
-// Reads which speeds a drive of a scene passes and does not stay at: bands as given, and those
-// about the critical speeds of the systems that it turns, found here once, by what the monitor and
-// `twin analyze` find them by.
+// Reads the barred speed ranges of a drive: given bands, and those about the critical speeds of its
+// systems, computed once here with the functions that the monitor and `twin analyze` use.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +13,20 @@
 
 namespace whirl_twin {
 
-// [-], of a critical speed, that its band may reach on both sides.
-inline constexpr double kLeastBandMargin = 1.0e-3;
-inline constexpr double kMostBandMargin = 0.9;
+// [-], half width of a band about a critical speed, relative to it.
+inline constexpr double kMinBandMargin = 1.0e-3;
+inline constexpr double kMaxBandMargin = 0.9;
 
-/// About the critical speeds of what a drive turns: margin [-] of them on both sides; without one
-/// the separation that the monitor asks for. Complains under `key` where they cannot be found.
+/// Bands about the critical speeds of the systems of a drive: half width `margin` [-] relative to
+/// the critical speed; without it, the separation margin that the monitor requires. Adds a
+/// diagnostic under `key` if they cannot be computed.
 std::vector<SpeedBand> criticalBands(const Scene& scene, std::size_t drive,
                                      std::optional<double> margin, const std::string& key,
-                                     Complaints& complaints);
+                                     Diagnostics& diagnostics);
 
-/// The `avoid` of a drive under `key`, into Scene::drives[drive], of a scene whose systems have
-/// been read. Complains of a drive that is to start or to stay in a band.
+/// Reads the `avoid` of a drive under `key` into Scene::drives[drive], of a scene whose systems
+/// have been read. Adds a diagnostic for a drive with an initial or target speed inside a band.
 void readAvoidance(const YAML::Node& node, const std::string& key, std::size_t drive, Scene& scene,
-                   Complaints& complaints);
+                   Diagnostics& diagnostics);
 
 }  // namespace whirl_twin

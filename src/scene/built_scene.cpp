@@ -5,7 +5,7 @@
 
 #include "scene/control_parts.h"
 #include "scene/input_reader.h"
-#include "scene/surroundings.h"
+#include "scene/model_context.h"
 
 namespace whirl_twin {
 

@@ -1,5 +1,5 @@
-// A scene with its systems built, for all who ask and none who step: nothing in it depends on the
-// scene's step, so a scene whose steps cannot be prepared is analysed and monitored like any other.
+// A scene with its systems built, for analysis and monitoring: independent of the scene's step, so
+// that a scene whose steps cannot be prepared is analysed and monitored like any other.
 #pragma once
 
 #include <cstddef>
@@ -16,18 +16,18 @@ struct BuiltScene {
   Scene scene;
   std::vector<SharedSystem> systems;  ///< in the scene's order
 
-  /// Drives of the scene first, in its order; then those of systems at constant speed, all at the
-  /// scene's start.
+  /// First the drives of the scene, in its order; then those of systems at constant speed, all at
+  /// the start of the scene.
   std::vector<Drive> drives() const;
-  /// The one that turns a system.
+  /// The drive of a system.
   Drive driveOf(const BuiltSystem& system) const;
-  /// What acts on a system, at the scene's start.
+  /// The inputs of a system, at the start of the scene.
   Inputs inputsOf(const BuiltSystem& system) const;
   double startSeconds() const { return static_cast<double>(scene.time) / 1.0e9; }  ///< [s]
 };
 
-/// Takes the setups that reading left in the scene, and makes only those anew whose specs were
-/// changed since. Throws std::logic_error for a scene that readScene() would have refused.
+/// Uses the setups stored in the scene, and repeats only those whose specs were changed since.
+/// Throws std::logic_error for a scene that readScene() would reject.
 BuiltScene build(const Scene& scene);
 
 }  // namespace whirl_twin

@@ -24,7 +24,7 @@ std::string coordinateNames(const Dynamics& dynamics) {
   return names;
 }
 
-/// Why one cannot run on in the place of the other; "" if it can.
+/// Why a running system cannot be replaced by the new one; "" if it can.
 std::string objectionToReplace(const BuiltSystem& before, const BuiltSystem& next) {
   const std::string had = coordinateNames(*before.dynamics);
   const std::string has = coordinateNames(*next.dynamics);
@@ -36,13 +36,13 @@ std::string objectionToReplace(const BuiltSystem& before, const BuiltSystem& nex
     return "would change the published stations: restart with another scene";
   }
   const std::string objection =
-      integratorObjection(next.setup(), next.spec.drive.has_value(), next.spec.integrator);
+      integratorDiagnostic(next.setup(), next.spec.drive.has_value(), next.spec.integrator);
   return objection.empty() ? "" : "integrator: " + objection;
 }
 
 }  // namespace
 
-SharedSystem build(SystemSpec spec, const Surroundings& around, std::size_t drive) {
+SharedSystem build(SystemSpec spec, const ModelContext& around, std::size_t drive) {
   BuiltSystem built;
   const SystemSetup& setup = setupOf(spec, around);
   built.model = setup.model;
@@ -51,7 +51,7 @@ SharedSystem build(SystemSpec spec, const Surroundings& around, std::size_t driv
   built.drive = drive;
   if (spec.integrator == "auto") {
     const bool on_drive = spec.drive.has_value();
-    // A choice made for other parameters may not suit these.
+    // A calibrated choice may not suit changed parameters.
     if (canStepWith(setup.made, on_drive, spec.chosen_integrator)) {
       built.integrator = spec.chosen_integrator;
       built.integrator_reason = spec.choice_reason;
@@ -67,35 +67,35 @@ SharedSystem build(SystemSpec spec, const Surroundings& around, std::size_t driv
 
 SharedSystem BuiltSystem::with(const std::vector<std::string>& paths,
                                const std::vector<double>& values, const std::string& source) const {
-  Complaints complaints(source);
+  Diagnostics diagnostics(source);
   const std::string key = "systems." + spec.name + ".parameters";
   if (spec.ensemble.count > 0) {
-    complaints.add(
+    diagnostics.add(
         key, "belong to an ensemble, drawn at the start: they cannot be changed while it runs");
   }
   SystemSpec changed = spec;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    setParameter(paths[i], values[i], *model, changed, complaints);
+    setParameter(paths[i], values[i], *model, changed, diagnostics);
   }
   SharedSystem next;
-  if (complaints.all().empty()) {
+  if (diagnostics.all().empty()) {
     try {
       next = build(std::move(changed), spec.setup->around, drive);
       for (const std::string& objection :
            {objectionToReplace(*this, *next),
-            objectionToRates(*next->dynamics, next->spec, next->spec.speed.value_or(0.0))}) {
+            ratesDiagnostic(*next->dynamics, next->spec, next->spec.speed.value_or(0.0))}) {
         if (!objection.empty()) {
-          complaints.add(key, objection);
+          diagnostics.add(key, objection);
         }
       }
     } catch (const SetupError& error) {
-      complaints.add(key + "." + error.parameter(), error.what());
-    } catch (const std::exception& error) {  // of numbers that no arithmetic can do with
-      complaints.add(key, error.what());
+      diagnostics.add(key + "." + error.parameter(), error.what());
+    } catch (const std::exception& error) {  // numerically unusable values
+      diagnostics.add(key, error.what());
     }
   }
-  if (!complaints.all().empty()) {
-    throw Refusal(fmt::format("{}", fmt::join(complaints.all(), "\n")));
+  if (!diagnostics.all().empty()) {
+    throw InputError(fmt::format("{}", fmt::join(diagnostics.all(), "\n")));
   }
   return next;
 }
@@ -106,10 +106,10 @@ SharedSystem BuiltSystem::with(const state::ParameterChange& set) const {
       set.values.size() != set.names.size()) {
     return nullptr;
   }
-  if (set.values == known.values) {  // told again
+  if (set.values == known.values) {  // a repeated message
     return std::make_shared<const BuiltSystem>(*this);
   }
-  // What follows another there, too, goes on following it.
+  // A parameter that follows another, with equal values in the set, continues to follow it.
   std::vector<std::string> paths;
   std::vector<double> values;
   for (std::size_t i = 0; i < set.names.size(); ++i) {
@@ -126,7 +126,7 @@ SharedSystem BuiltSystem::with(const state::ParameterChange& set) const {
   }
   try {
     return with(paths, values, "parameters");
-  } catch (const Refusal&) {
+  } catch (const InputError&) {
     return nullptr;
   }
 }

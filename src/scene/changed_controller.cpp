@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "controllers/controller_registry.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "scene/controller_reader.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_paths.h"
@@ -27,27 +27,28 @@ state::ParameterChange parametersOf(const ControllerSpec& controller) {
 ChangedController withParameters(const Scene& scene, const ControllerSpec& controller,
                                  const std::vector<std::string>& paths,
                                  const std::vector<double>& values, const std::string& source) {
-  Complaints complaints(source);
+  Diagnostics diagnostics(source);
   const std::string key = fmt::format("controllers.{}.parameters", controller.name);
   ChangedController changed{controller, nullptr};
   if (!hasParameters(controller)) {
-    complaints.add(key, "must be changed in the controller's own process");
+    diagnostics.add(key, "must be changed in the controller's own process");
   } else {
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      setParameter(paths[i], values[i], *findController(controller.type), changed.spec, complaints);
+      setParameter(paths[i], values[i], *findController(controller.type), changed.spec,
+                   diagnostics);
     }
   }
-  if (complaints.all().empty()) {
+  if (diagnostics.all().empty()) {
     try {
       changed.law = lawOf(scene, changed.spec);
     } catch (const SetupError& error) {
-      complaints.add(key + "." + error.parameter(), error.what());
-    } catch (const std::exception& error) {  // of numbers that no arithmetic can do with
-      complaints.add(key, error.what());
+      diagnostics.add(key + "." + error.parameter(), error.what());
+    } catch (const std::exception& error) {  // numerically unusable values
+      diagnostics.add(key, error.what());
     }
   }
-  if (!complaints.all().empty()) {
-    throw Refusal(fmt::format("{}", fmt::join(complaints.all(), "\n")));
+  if (!diagnostics.all().empty()) {
+    throw InputError(fmt::format("{}", fmt::join(diagnostics.all(), "\n")));
   }
   return changed;
 }

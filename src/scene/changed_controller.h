@@ -1,4 +1,4 @@
-// A controller of a scene with other numbers, while the twin runs.
+// Changes the parameters of a controller of a scene while the twin runs.
 #pragma once
 
 #include <memory>
@@ -11,25 +11,25 @@
 
 namespace whirl_twin {
 
-/// What a controller is said to be, and the law that this makes.
+/// A controller specification and its control law.
 struct ChangedController {
   ControllerSpec spec;
-  std::unique_ptr<Controller> law;  ///< at its beginning
+  std::unique_ptr<Controller> law;  ///< in its initial state
 };
 
-/// The law of a controller, at its beginning.
+/// The control law of a controller, in its initial state.
 std::unique_ptr<Controller> lawOf(const Scene& scene, const ControllerSpec& controller);
 
-/// Has it numbers that can be changed? Those of one in another process are of that process.
+/// Whether it has numbers that can be changed; those of a controller in another process are there.
 bool hasParameters(const ControllerSpec& controller);
 
-/// All numbers with their values; nothing `changed`.
+/// All numbers with their values; `changed` is empty.
 state::ParameterChange parametersOf(const ControllerSpec& controller);
 
-/// With other numbers at these paths (parameter_paths.h); the scene says what is around it. Throws
-/// Refusal in the words of a scene, each complaint with the key controllers.NAME.parameters… and
-/// `source` before it, for paths that it does not have, values out of range and parameters that do
-/// not fit together.
+/// The controller with other numbers at these paths (parameter_paths.h); the scene has its plant.
+/// Throws InputError with the diagnostics of a scene, each with `source` and the key
+/// controllers.NAME.parameters…, for unknown paths, values out of range and inconsistent
+/// parameters.
 ChangedController withParameters(const Scene& scene, const ControllerSpec& controller,
                                  const std::vector<std::string>& paths,
                                  const std::vector<double>& values, const std::string& source);

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "scene/changed_controller.h"
 #include "scene/control_parts.h"
 
@@ -25,8 +25,8 @@ std::vector<std::size_t> systemsOf(const Scene& scene, const ControllerSpec& con
   return systems;
 }
 
-/// Without the states that nothing depends on and nobody measures: the angle of a shaft that only
-/// its speed matters of drifts, and is no part of what a loop holds.
+/// Removes the states that affect neither the dynamics nor a measurement: a cyclic angle of a shaft
+/// drifts, and is not part of the closed loop.
 LoopPlant withoutCyclic(const LinearPlant& plant) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < plant.a.cols(); ++i) {
@@ -37,7 +37,7 @@ LoopPlant withoutCyclic(const LinearPlant& plant) {
   return {plant.a(kept, kept), plant.b(kept, Eigen::all), plant.c(Eigen::all, kept)};
 }
 
-/// What holds is within what the actuator gives.
+/// Throws RunFailure if the equilibrium requires more than the actuator's limit.
 void checkLimit(const ControllerSpec& controller, const Eigen::VectorXd& outputs,
                 const HeldMotions& held) {
   const double limit = controller.actuator.limit;
@@ -99,7 +99,7 @@ std::optional<ClosedLoop> ClosedLoop::with(const state::ParameterChange& set) co
       spec = std::move(changed.spec);
       next.laws_[k] = std::move(changed.law);
       return next;
-    } catch (const Refusal&) {
+    } catch (const InputError&) {
       return std::nullopt;
     }
   }
@@ -140,7 +140,7 @@ std::optional<ClosedLoop::Parts> ClosedLoop::parts(const SystemMotions& present,
     parts.controllers.push_back(std::move(controller));
     holding.push_back({&spec, *law, laws_[i]->setpoint()});
   }
-  if (std::optional<Held> held = heldMotions(holding, present)) {
+  if (std::optional<Held> held = closedLoopEquilibria(holding, present)) {
     for (std::size_t i = 0; i < holding.size(); ++i) {
       checkLimit(*holding[i].controller, held->outputs[i], held->motions);
     }
@@ -157,7 +157,7 @@ std::optional<ClosedLoop::Parts> ClosedLoop::parts(const SystemMotions& present,
 
 std::vector<ClosedLoop> closedLoops(const Scene& scene) {
   std::vector<std::vector<std::size_t>> groups;  // of controllers
-  std::vector<std::set<std::size_t>> systems;    // of each
+  std::vector<std::set<std::size_t>> systems;    // of each group
   for (std::size_t i = 0; i < scene.controllers.size(); ++i) {
     std::vector<std::size_t> group{i};
     const std::vector<std::size_t> own = systemsOf(scene, scene.controllers[i]);

@@ -1,4 +1,4 @@
-// Controllers that hang together, by systems that they share, and the loop that they close.
+// Controllers coupled by shared systems, and the closed loop that they form.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace whirl_twin {
 
 class ClosedLoop {
  public:
-  /// Of these controllers of a scene, with the laws that they have at its start.
+  /// For these controllers of a scene, with their initial control laws.
   ClosedLoop(const Scene& scene, std::vector<std::size_t> controllers);
 
   const std::vector<std::size_t>& controllers() const { return controllers_; }
@@ -26,28 +26,29 @@ class ClosedLoop {
     return scene_.controllers[controllers_[i]];
   }
   const std::string& nameOf(std::size_t system) const { return scene_.systems[system].name; }
-  /// Whose shaft's speed the laws follow: the first system that the first controller measures.
+  /// The system whose shaft speed the control laws use: the first that the first controller
+  /// measures.
   std::size_t leadingSystem() const { return controller(0).measures.front().system; }
   bool has(const std::string& controller) const;
-  /// The numbers of one that it has.
+  /// The numbers of one of these controllers.
   state::ParameterChange parametersOf(const std::string& controller) const;
 
-  /// With the complete set of numbers that a twin told of one of its controllers; nothing where it
-  /// has none of that name, or one that cannot have them.
+  /// The loop with the complete set of numbers that a twin has published for one of its
+  /// controllers; nothing if it has no controller of that name, or the set is invalid for it.
   std::optional<ClosedLoop> with(const state::ParameterChange& set) const;
 
-  /// The plant and the laws that close the loop around it.
+  /// The linear plant and the linear control laws of the loop.
   struct Parts {
     LoopPlant plant;
     std::vector<LoopController> controllers;  ///< as controllers()
-    HeldMotions about;                        ///< what the plant's motions are small about
-    std::vector<Eigen::VectorXd> outputs;     ///< of each controller there; none: it holds nothing
+    HeldMotions about;                        ///< motions about which the plant is linearized
+    std::vector<Eigen::VectorXd> outputs;     ///< per controller, at equilibrium; empty: none found
     std::vector<bool> holding;                ///< of each controller: Controller::holds()
   };
-  /// For small motions about those that the laws hold the systems in, from where these are at
-  /// present; where nothing is held, about the rests near by. Laws are those of a shaft speed
-  /// [rad/s] and the present acceleration of the leading system's shaft. Nothing where a law is not
-  /// linear. Throws RunFailure where an actuator's limit is less than what it takes to hold them.
+  /// Linearization about the closed-loop equilibrium near the present motions; if there is none,
+  /// about the systems' equilibria without inputs. The control laws are those at a shaft speed
+  /// [rad/s] and the present acceleration of the leading system's shaft. Nothing if a control law
+  /// is not linear. Throws RunFailure if the equilibrium requires more than an actuator's limit.
   std::optional<Parts> parts(const SystemMotions& present, double shaft_speed) const;
 
  private:

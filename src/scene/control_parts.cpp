@@ -12,12 +12,13 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kMostParts = 20000;  // looked at, in search of a pattern
-constexpr std::size_t kMostLengths = 16;    // each takes a map of its own to prepare
-/// Of the noise of a seed: channels below are those of sensors.
+constexpr std::int64_t kMaxParts = 20000;  // examined in search of a periodic pattern
+constexpr std::size_t kMaxLengths = 16;    // each requires a prepared step
+/// Noise channel of a seed; the channels of sensors are below it.
 constexpr std::uint32_t kJitterChannel = 0xFFFFFFFF;
 
-/// After which the instants come again [ns]; nothing: not before kMostParts parts, or never.
+/// Period after which all instants repeat [ns]; nothing if it exceeds kMaxParts sub-steps, or does
+/// not exist.
 std::optional<std::int64_t> hyperperiod(const Scene& scene) {
   std::int64_t all = scene.step;
   for (const ControllerSpec& controller : scene.controllers) {
@@ -26,7 +27,7 @@ std::optional<std::int64_t> hyperperiod(const Scene& scene) {
       return std::nullopt;
     }
     const std::int64_t times = period / std::gcd(all, period);
-    if (all / scene.step > kMostParts / times) {
+    if (all / scene.step > kMaxParts / times) {
       return std::nullopt;
     }
     all *= times;
@@ -57,7 +58,8 @@ void ControlInstants::start(std::int64_t start) noexcept {
 bool ControlInstants::isAt(std::int64_t time) const noexcept {
   ControlInstants other = *this;
   other.start(time);
-  // What is due at `time` itself may have been passed. With jitter outputs wait for those before.
+  // An instant at `time` itself may have been passed. With jitter, an output waits for earlier
+  // ones.
   const std::int64_t period = instants_.at(other.sample_ + 1) - instants_.at(other.sample_);
   const std::int64_t apart = 2 + 2 * jitter_ / period;
   return sample_ >= other.sample_ && sample_ <= other.sample_ + 1 &&
@@ -78,11 +80,11 @@ std::vector<std::int64_t> partLengths(const Scene& scene) {
     controllers.emplace_back(controller, scene.time);
   }
   const std::optional<std::int64_t> period = hyperperiod(scene);
-  std::map<std::int64_t, std::int64_t> count;  // of parts of a length
+  std::map<std::int64_t, std::int64_t> count;  // sub-steps by length
   std::int64_t time = scene.time;
   std::int64_t step_end = time + scene.step;
   std::int64_t parts = 0;
-  while (parts < kMostParts && !(period && time >= scene.time + *period)) {
+  while (parts < kMaxParts && !(period && time >= scene.time + *period)) {
     std::int64_t next = step_end;
     for (ControlInstants& controller : controllers) {
       while (controller.sampleTime() <= time) {
@@ -106,10 +108,10 @@ std::vector<std::int64_t> partLengths(const Scene& scene) {
   }
   std::sort(often.rbegin(), often.rend());
   std::vector<std::int64_t> lengths;
-  for (std::size_t i = 0; i < std::min(often.size(), kMostLengths); ++i) {
+  for (std::size_t i = 0; i < std::min(often.size(), kMaxLengths); ++i) {
     lengths.push_back(often[i].second);
   }
-  if (!all_seen || often.size() > kMostLengths) {
+  if (!all_seen || often.size() > kMaxLengths) {
     for (std::int64_t length = 1; length < scene.step; length *= 2) {
       lengths.push_back(length);
     }

@@ -1,5 +1,5 @@
-// The parts in which the twin takes steps of what controllers measure and act on: from instant to
-// instant of theirs.
+// Sub-steps of the twin for systems that controllers measure or act on: from one sampling or output
+// instant to the next.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace whirl_twin {
 
-/// When a controller samples and when its outputs begin to act, one instant after the other; also
-/// the outputs of samples that were never taken, before the start, are among them, so that the
-/// parts are the same throughout. Where the delay has jitter, no output overtakes the one before.
+/// Sequence of the instants at which a controller samples and its outputs become active. It
+/// includes outputs of samples before the start, which were never taken, so that the sub-steps are
+/// the same throughout. With jitter of the delay, no output overtakes the previous one.
 class ControlInstants {
  public:
   static constexpr std::int64_t kNever = INT64_MAX;
@@ -23,7 +23,7 @@ class ControlInstants {
   // Real-time safe.
 
   void start(std::int64_t start) noexcept;
-  /// The sample, and the sample whose output acts, that come next.
+  /// The next sample, and the sample of the next output.
   std::int64_t sample() const noexcept { return sample_; }
   std::int64_t output() const noexcept { return output_; }
   std::int64_t sampleTime() const noexcept { return sample_time_; }  ///< [ns]
@@ -31,7 +31,7 @@ class ControlInstants {
   std::int64_t next() const noexcept {
     return sample_time_ < output_time_ ? sample_time_ : output_time_;
   }
-  /// Does it come to its next instants from `time` [ns], all before that being passed?
+  /// Whether these are the next instants from `time` [ns] on, with all earlier ones passed.
   bool isAt(std::int64_t time) const noexcept;
   void passSample() noexcept { sample_time_ = instants_.at(++sample_); }
   void passOutput() noexcept {
@@ -50,16 +50,16 @@ class ControlInstants {
   std::int64_t sample_time_ = 0, output_time_ = 0;
 };
 
-/// Lengths [ns] that all parts are sums of, longest first: each part is one of a few, where the
-/// instants come again after not too many; else powers of two are among them. Empty: every step is
-/// taken whole.
+/// Lengths [ns] of which every sub-step is a sum, longest first: if the instants repeat soon
+/// enough, each sub-step has one of a few lengths; otherwise the list includes powers of two.
+/// Empty: no steps are divided.
 std::vector<std::int64_t> partLengths(const Scene& scene);
 
-/// Does it measure a system or act on it?
+/// Whether a controller measures a system or acts on it.
 bool involves(const ControllerSpec& controller, std::size_t system);
-/// Does any?
+/// Whether any controller does.
 bool isControlled(const Scene& scene, std::size_t system);
-/// Does one make a system's motion hang on another's?
+/// Whether a controller couples the system's motion with that of another one.
 bool isTiedToOthers(const Scene& scene, std::size_t system);
 
 }  // namespace whirl_twin

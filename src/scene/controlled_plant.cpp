@@ -31,7 +31,7 @@ SystemMotion motionAtStart(const Scene& scene, std::size_t system, std::optional
           speed.value_or(startSpeedOf(scene, system))};
 }
 
-HeldMotion restNear(const SystemMotion& present) {
+ClosedLoopEquilibrium restNear(const SystemMotion& present) {
   const Dynamics& dynamics = *present.dynamics;
   const std::optional<VectorXd> rest =
       dynamics.linear() ? std::nullopt : equilibriumNear(dynamics, present.q, present.speed);
@@ -45,7 +45,7 @@ SignalRow rowOf(const SignalSpec& signal, const Dynamics& dynamics) {
             signal.kind == SignalSpec::Kind::kRate};
   }
   const Station station = dynamics.stations()[signal.station];
-  const double cosine = std::cos(signal.direction);  // along y: the rounding of a right angle
+  const double cosine = std::cos(signal.direction);  // the cosine of a right angle is rounding only
   return {(std::fabs(cosine) < 1.0e-16 ? 0.0 : cosine) * station.along_x +
               std::sin(signal.direction) * station.along_y,
           false};
@@ -60,7 +60,7 @@ LinearPlant linearPlant(const std::vector<SignalSpec>& measures,
   LinearPlant plant{MatrixXd::Zero(size, size),
                     MatrixXd::Zero(size, static_cast<Index>(acts_on.size())),
                     MatrixXd::Zero(static_cast<Index>(measures.size()), size)};
-  Index q = 0;  // of a system's states the first
+  Index q = 0;  // index of a system's first state
   for (const auto& [system, motion] : about) {
     const Dynamics& dynamics = *motion.dynamics;
     const Index n = dynamics.dof();

@@ -14,17 +14,17 @@
 #include "scene/control_parts.h"
 #include "scene/controlled_plant.h"
 #include "scene/parameter_reader.h"
+#include "scene/resonance_passage_check.h"
 #include "scene/sensor_spec.h"
 #include "scene/signal_names.h"
 #include "scene/system_setup.h"
-#include "scene/weak_passage.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kMostUnderWay = 1.0e4;  // outputs
-constexpr std::size_t kMostSignals = 64;
+constexpr double kMaxUnderWay = 1.0e4;  // outputs delayed at a time
+constexpr std::size_t kMaxSignals = 64;
 
 /// Inputs of systems by name.
 class InputNames {
@@ -43,15 +43,15 @@ class InputNames {
   }
 
   std::optional<ActedInput> find(const std::string& name, const std::string& key,
-                                 Complaints& complaints) const {
+                                 Diagnostics& diagnostics) const {
     const auto found = std::find(names_.begin(), names_.end(), name);
     if (found != names_.end()) {
       return places_[static_cast<std::size_t>(found - names_.begin())];
     }
     const std::string near = nearestName(name, names_);
-    complaints.add(key,
-                   fmt::format("must be an input of a system, found {}{}", whirl_twin::quoted(name),
-                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    diagnostics.add(
+        key, fmt::format("must be an input of a system, found {}{}", whirl_twin::inQuotes(name),
+                         near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
     return std::nullopt;
   }
 
@@ -60,51 +60,51 @@ class InputNames {
   std::vector<ActedInput> places_;
 };
 
-/// The entries of a list that must have some.
+/// The entries of a list that must not be empty.
 std::vector<YAML::Node> entries(const MapReader& map, const std::string& name,
-                                const std::string& of, Complaints& complaints) {
+                                const std::string& of, Diagnostics& diagnostics) {
   if (!map.usable()) {
     return {};
   }
   if (!map.has(name)) {
-    complaints.add(map.key(name), fmt::format("missing; must be a list of {}", of));
+    diagnostics.add(map.key(name), fmt::format("missing; must be a list of {}", of));
     return {};
   }
   const YAML::Node node = map.at(name);
-  if (!node.IsSequence() || node.size() == 0 || node.size() > kMostSignals) {
-    complaints.add(map.key(name),
-                   fmt::format("must be a list of 1 to {} {}, found {}", kMostSignals, of,
-                               node.IsSequence() ? fmt::format("{}", node.size()) : shown(node)));
+  if (!node.IsSequence() || node.size() == 0 || node.size() > kMaxSignals) {
+    diagnostics.add(map.key(name),
+                    fmt::format("must be a list of 1 to {} {}, found {}", kMaxSignals, of,
+                                node.IsSequence() ? fmt::format("{}", node.size()) : shown(node)));
     return {};
   }
   return {node.begin(), node.end()};
 }
 
 void readMeasured(const MapReader& map, const SignalNames& signals, ControllerSpec& controller,
-                  Complaints& complaints) {
-  const std::vector<YAML::Node> given = entries(map, "measures", "signals", complaints);
+                  Diagnostics& diagnostics) {
+  const std::vector<YAML::Node> given = entries(map, "measures", "signals", diagnostics);
   for (std::size_t i = 0; i < given.size(); ++i) {
     const std::string key = fmt::format("{}[{}]", map.key("measures"), i);
     std::string name;
     std::optional<double> direction;
     std::string name_key = key;
     if (given[i].IsMap()) {
-      const MapReader entry(given[i], key, {"signal", "direction"}, "key of a signal", complaints);
+      const MapReader entry(given[i], key, {"signal", "direction"}, "key of a signal", diagnostics);
       name = entry.text("signal", "");
       name_key = entry.key("signal");
       direction = entry.number("direction", Range::kAny, "rad", 0.0);
     } else if (given[i].IsScalar()) {
       name = given[i].Scalar();
     }
-    std::optional<NamedSignal> found = signals.find(name, name_key, complaints);
+    std::optional<NamedSignal> found = signals.find(name, name_key, diagnostics);
     if (found && direction) {
       if (found->takes_direction) {
         found->signal.direction = *direction;
       } else {
-        complaints.add(
+        diagnostics.add(
             key + ".direction",
             fmt::format("needs a rotor or a station of one; the direction of {} is fixed",
-                        whirl_twin::quoted(name)));
+                        whirl_twin::inQuotes(name)));
       }
     }
     if (found) {
@@ -114,15 +114,15 @@ void readMeasured(const MapReader& map, const SignalNames& signals, ControllerSp
   }
 }
 
-/// Makes the inputs that a controller acts on its own.
+/// Marks the inputs that a controller acts on as controlled by it.
 void readActedOn(const MapReader& map, Scene& scene, ControllerSpec& controller,
-                 Complaints& complaints) {
+                 Diagnostics& diagnostics) {
   const InputNames inputs(scene);
-  const std::vector<YAML::Node> given = entries(map, "acts_on", "inputs", complaints);
+  const std::vector<YAML::Node> given = entries(map, "acts_on", "inputs", diagnostics);
   for (std::size_t i = 0; i < given.size(); ++i) {
     const std::string key = fmt::format("{}[{}]", map.key("acts_on"), i);
     const std::string name = given[i].IsScalar() ? given[i].Scalar() : "";
-    const std::optional<ActedInput> found = inputs.find(name, key, complaints);
+    const std::optional<ActedInput> found = inputs.find(name, key, diagnostics);
     if (!found) {
       continue;
     }
@@ -130,10 +130,10 @@ void readActedOn(const MapReader& map, Scene& scene, ControllerSpec& controller,
     const std::string input = system.setup->made.dynamics->inputs()[found->input].name;
     const auto signal = system.inputs.find(input);
     if (signal != system.inputs.end()) {
-      complaints.add(key, fmt::format("{} is already {}", whirl_twin::quoted(name),
-                                      signal->second.kind == InputSignal::Kind::kControlled
-                                          ? "acted on by a controller"
-                                          : "given by the system's inputs"));
+      diagnostics.add(key, fmt::format("{} is already {}", whirl_twin::inQuotes(name),
+                                       signal->second.kind == InputSignal::Kind::kControlled
+                                           ? "acted on by a controller"
+                                           : "given by the system's inputs"));
       continue;
     }
     system.inputs.emplace(input, InputSignal::controlled());
@@ -143,10 +143,10 @@ void readActedOn(const MapReader& map, Scene& scene, ControllerSpec& controller,
 }
 
 void readSurroundings(const MapReader& map, Scene& scene, ControllerSpec& controller,
-                      Complaints& complaints) {
+                      Diagnostics& diagnostics) {
   const auto part = [&](const char* name, const std::vector<std::string>& keys) {
     return MapReader(map.has(name) ? map.at(name) : YAML::Node(YAML::NodeType::Map), map.key(name),
-                     keys, fmt::format("key of {}", name), complaints);
+                     keys, fmt::format("key of {}", name), diagnostics);
   };
   const MapReader sensor = part("sensor", {"resolution", "noise", "bandwidth", "range", "seed"});
   const std::string unit = "in the unit of the measured signal";
@@ -169,18 +169,18 @@ void readSurroundings(const MapReader& map, Scene& scene, ControllerSpec& contro
 }
 
 /// A number, or {mean, jitter, seed}.
-void readDelay(const MapReader& map, ControllerSpec& controller, Complaints& complaints) {
+void readDelay(const MapReader& map, ControllerSpec& controller, Diagnostics& diagnostics) {
   const bool parts = map.has("delay") && map.at("delay").IsMap();
   double delay = 0.0;
   double jitter = 0.0;
   if (parts) {
     const MapReader given(map.at("delay"), map.key("delay"), {"mean", "jitter", "seed"},
-                          "key of delay", complaints);
+                          "key of delay", diagnostics);
     delay = given.numberBetween("mean", 0.0, kMaxSignalDelay, "s", std::nullopt);
     jitter = given.numberBetween("jitter", 0.0, kMaxSignalDelay, "s", 0.0);
     controller.jitter_seed = static_cast<std::uint32_t>(given.integer("seed", 0, 2147483647, 1));
     if (jitter > delay) {
-      complaints.add(
+      diagnostics.add(
           given.key("jitter"),
           fmt::format("must be at most the mean delay, {:g} s, found {:g}", delay, jitter));
     }
@@ -189,73 +189,74 @@ void readDelay(const MapReader& map, ControllerSpec& controller, Complaints& com
   }
   controller.delay = std::llround(delay * 1.0e9);
   controller.jitter = std::llround(jitter * 1.0e9);
-  if ((delay + jitter) * controller.rate > kMostUnderWay) {
-    complaints.add(map.key("delay"),
-                   fmt::format("must be at most {:g} samples, found {:g}", kMostUnderWay,
-                               (delay + jitter) * controller.rate));
+  if ((delay + jitter) * controller.rate > kMaxUnderWay) {
+    diagnostics.add(map.key("delay"),
+                    fmt::format("must be at most {:g} samples, found {:g}", kMaxUnderWay,
+                                (delay + jitter) * controller.rate));
   }
 }
 
-/// A law that cannot be made of its parameters.
+/// Reports a control law that cannot be made from its parameters.
 void checkLaw(const MapReader& map, const ControllerInfo& info, const Scene& scene,
-              const ControllerSpec& controller, Complaints& complaints) {
+              const ControllerSpec& controller, Diagnostics& diagnostics) {
   try {
     info.make(controller.parameters, controller.settings, planOf(scene, controller));
   } catch (const SetupError& error) {
-    complaints.add(map.key("parameters." + error.parameter()), error.what());
-  } catch (const Refusal& error) {
-    complaints.add(map.key("type"), error.what());
+    diagnostics.add(map.key("parameters." + error.parameter()), error.what());
+  } catch (const InputError& error) {
+    diagnostics.add(map.key("type"), error.what());
   }
 }
 
-/// What a controller that brings a shaft to a speed is to know of what it turns.
+/// Finds the barred speed ranges about critical speeds for a speed controller.
 void findBands(const MapReader& map, const Scene& scene, ControllerSpec& controller,
-               Complaints& complaints) {
+               Diagnostics& diagnostics) {
   const double margin = controller.parameters.at("margin");
   const std::string key = map.key("parameters.margin");
-  if (margin != 0.0 && (margin < kLeastBandMargin || margin > kMostBandMargin)) {
-    complaints.add(key, fmt::format("must be 0, or from {} to {} of a critical speed, found {}",
-                                    kLeastBandMargin, kMostBandMargin, margin));
+  if (margin != 0.0 && (margin < kMinBandMargin || margin > kMaxBandMargin)) {
+    diagnostics.add(key, fmt::format("must be 0, or from {} to {} of a critical speed, found {}",
+                                     kMinBandMargin, kMaxBandMargin, margin));
   }
   if (controller.settings.choices.at("critical_speeds") == "true") {
     controller.critical_bands =
         criticalBands(scene, scene.driveOf(scene.systems[controller.measures.front().system]),
                       margin > 0.0 ? std::optional<double>(margin) : std::nullopt,
-                      map.key("parameters.critical_speeds"), complaints);
+                      map.key("parameters.critical_speeds"), diagnostics);
   } else if (margin != 0.0) {
-    complaints.add(key, "needs critical_speeds: true");
+    diagnostics.add(key, "needs critical_speeds: true");
   }
 }
 
-/// What is said of a controller in another process, in place of parameters.
+/// The keys of a controller in another process, in place of parameters.
 void readExternal(const MapReader& map, const ControllerInfo& info, const Scene& scene,
-                  ControllerSpec& controller, Complaints& complaints) {
+                  ControllerSpec& controller, Diagnostics& diagnostics) {
   controller.parameters["timeout"] = map.numberBetween("timeout", 1.0e-6, 1.0e3, "s", std::nullopt);
   for (const SettingInfo& setting : info.settings) {
     controller.settings.choices[setting.name] =
         map.choice(setting.name, setting.choices, "one of its values", setting.choices.front());
   }
   if (map.has("parameters")) {
-    complaints.add(map.key("parameters"),
-                   "must not be given: the controller's own process has them");
+    diagnostics.add(map.key("parameters"),
+                    "must not be given: the controller's own process has them");
   }
   const std::int64_t shortest = controller.delay - controller.jitter;
   if (controller.settings.choices["mode"] == "lockstep" && shortest < scene.step) {
-    complaints.add(map.key("delay"),
-                   fmt::format("must be at least a step, {:g} s, in lockstep: simulated time waits "
-                               "for answers between steps, found {:g} s",
-                               scene.stepSeconds(), static_cast<double>(shortest) / 1e9));
+    diagnostics.add(
+        map.key("delay"),
+        fmt::format("must be at least a step, {:g} s, in lockstep: simulated time waits "
+                    "for answers between steps, found {:g} s",
+                    scene.stepSeconds(), static_cast<double>(shortest) / 1e9));
   }
 }
 
-/// What cannot have controllers.
+/// Reports systems that cannot have controllers.
 void checkSystems(const MapReader& map, const Scene& scene, const ControllerSpec& controller,
-                  Complaints& complaints) {
+                  Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     const auto is_it = [&](const ActedInput& input) { return input.system == i; };
     if (!scene.systems[i].ensemble.spread.empty() &&
         std::any_of(controller.acts_on.begin(), controller.acts_on.end(), is_it)) {
-      complaints.add(
+      diagnostics.add(
           map.key("acts_on"),
           fmt::format("systems.{} has a spread: the samples of an ensemble cannot have controllers",
                       scene.systems[i].name));
@@ -265,53 +266,53 @@ void checkSystems(const MapReader& map, const Scene& scene, const ControllerSpec
 
 ControllerSpec readController(const YAML::Node& node, const std::string& key,
                               const std::string& name, const SignalNames& signals, Scene& scene,
-                              Complaints& complaints) {
+                              Diagnostics& diagnostics) {
   ControllerSpec controller;
   controller.name = name;
   const MapReader map(node, key,
                       {"type", "rate", "measures", "acts_on", "delay", "sensor", "actuator",
                        "parameters", "mode", "timeout", "on_timeout"},
-                      "key of a controller", complaints);
+                      "key of a controller", diagnostics);
   if (!map.usable()) {
     return controller;
   }
-  const std::size_t before = complaints.all().size();
+  const std::size_t before = diagnostics.all().size();
   const ControllerInfo* info = nullptr;
   if (map.has("type")) {
     controller.type = map.choice("type", controllerNames(), "the name of a controller type", "");
     info = findController(controller.type);
   } else {
-    complaints.add(map.key("type"),
-                   fmt::format("missing; must be one of {}", fmt::join(controllerNames(), ", ")));
+    diagnostics.add(map.key("type"),
+                    fmt::format("missing; must be one of {}", fmt::join(controllerNames(), ", ")));
   }
   controller.rate = map.numberBetween("rate", 1.0e-3, kMaxSampleRate, "Hz", std::nullopt);
-  readDelay(map, controller, complaints);
-  readMeasured(map, signals, controller, complaints);
-  readActedOn(map, scene, controller, complaints);
-  readSurroundings(map, scene, controller, complaints);
+  readDelay(map, controller, diagnostics);
+  readMeasured(map, signals, controller, diagnostics);
+  readActedOn(map, scene, controller, diagnostics);
+  readSurroundings(map, scene, controller, diagnostics);
   const bool external = info != nullptr && info->name == "external";
   for (const char* const own : {"mode", "timeout", "on_timeout"}) {
     if (!external && map.has(own)) {
-      complaints.add(map.key(own), "needs type: external, a controller in another process");
+      diagnostics.add(map.key(own), "needs type: external, a controller in another process");
     }
   }
   if (external) {
-    readExternal(map, *info, scene, controller, complaints);
-    checkSystems(map, scene, controller, complaints);
+    readExternal(map, *info, scene, controller, diagnostics);
+    checkSystems(map, scene, controller, diagnostics);
   } else if (info != nullptr) {
     readParameterValues(map, info->name, info->parameters, info->settings, {},
                         controller.parameters, controller.following, controller.settings,
-                        complaints);
-    checkSystems(map, scene, controller, complaints);
+                        diagnostics);
+    checkSystems(map, scene, controller, diagnostics);
     const bool speed = info->name == "speed";
-    if (speed && complaints.all().size() == before) {
-      findBands(map, scene, controller, complaints);
+    if (speed && diagnostics.all().size() == before) {
+      findBands(map, scene, controller, diagnostics);
     }
-    if (complaints.all().size() == before) {
-      checkLaw(map, *info, scene, controller, complaints);
+    if (diagnostics.all().size() == before) {
+      checkLaw(map, *info, scene, controller, diagnostics);
     }
-    if (speed && complaints.all().size() == before) {
-      controller.weak_passages = weakPassages(scene, controller);
+    if (speed && diagnostics.all().size() == before) {
+      controller.weak_passages = resonancePassageChecks(scene, controller);
     }
   }
   return controller;
@@ -338,7 +339,7 @@ ControllerPlan planOf(const Scene& scene, const ControllerSpec& controller) {
     plan.plant = plant;
   }
   plan.critical_bands = controller.critical_bands;
-  for (const WeakPassage& passage : controller.weak_passages) {
+  for (const ResonancePassageCheck& passage : controller.weak_passages) {
     if (!passage.tried && !plan.impassable) {
       plan.impassable = passage.band;
     }
@@ -347,12 +348,12 @@ ControllerPlan planOf(const Scene& scene, const ControllerSpec& controller) {
 }
 
 void readControllers(const YAML::Node& node, const std::string& key, Scene& scene,
-                     Complaints& complaints) {
-  const MapReader map(node, key, {}, "", complaints);
+                     Diagnostics& diagnostics) {
+  const MapReader map(node, key, {}, "", diagnostics);
   const SignalNames signals(scene);
   for (const std::string& name : map.names()) {
     scene.controllers.push_back(
-        readController(map.at(name), map.key(name), name, signals, scene, complaints));
+        readController(map.at(name), map.key(name), name, signals, scene, diagnostics));
   }
 }
 

@@ -3,7 +3,7 @@
 //   controllers:
 //     levitation:
 //       type: pid
-//       rate: 20000.0                     # Hz, of its own: any ratio to the step
+//       rate: 20000.0                     # Hz, in any ratio to the step
 //       measures: [rotor.x, {signal: rotor.node_3, direction: 0.785}]
 //       acts_on: [rotor.force_x, rotor.force_y]
 //       delay: 8.0e-5                     # s, from a sample to its output
@@ -17,12 +17,12 @@
 
 namespace whirl_twin {
 
-/// The controllers under `key`, into a scene whose drives and systems have been read; what they act
-/// on is an input of its system from then on. Complains of everything that does not fit.
+/// Reads the controllers under `key` into a scene whose drives and systems have been read; the
+/// inputs they act on become controlled inputs of their systems. Adds a diagnostic for every error.
 void readControllers(const YAML::Node& node, const std::string& key, Scene& scene,
-                     Complaints& complaints);
+                     Diagnostics& diagnostics);
 
-/// What surrounds a controller of a scene, for its law to be made.
+/// The context of a controller of a scene, from which its control law is made.
 ControllerPlan planOf(const Scene& scene, const ControllerSpec& controller);
 
 }  // namespace whirl_twin

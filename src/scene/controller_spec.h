@@ -1,4 +1,5 @@
-// The controllers of a scene: what each measures, when, by which law, and what it acts on.
+// Specification of the controllers of a scene: measured signals, timing, control law, inputs acted
+// on.
 #pragma once
 
 #include <cstddef>
@@ -14,42 +15,42 @@
 
 namespace whirl_twin {
 
-/// An input of a system, in the order of its dynamics.
+/// An input of a system, by its index in the dynamics.
 struct ActedInput {
   std::size_t system = 0;  ///< of Scene::systems
   std::size_t input = 0;
 };
 
-/// A band of speeds through which a motor does not bring its rotor at a steady whirl.
-struct WeakPassage {
+/// A band of speeds that a motor cannot cross with a steady whirl.
+struct ResonancePassageCheck {
   SpeedBand band;
-  double speed = 0.0;   ///< [rad/s], where it lacks most
-  double needed = 0.0;  ///< [N m], there; infinite where nothing damps the whirl
-  double given = 0.0;   ///< [N m], there, at most
-  bool tried = false;   ///< all the same: it is thrown through, or the scene wants it so
+  double speed = 0.0;   ///< [rad/s], of the largest lack of torque
+  double needed = 0.0;  ///< [N m], there; infinite for undamped whirl
+  double given = 0.0;   ///< [N m], there, largest available
+  bool tried = false;   ///< crossed nevertheless: the simulation passes, or the scene requests it
 };
 
 struct ControllerSpec {
   std::string name;
-  std::string type;         ///< of controllerNames()
+  std::string type;         ///< one of controllerNames()
   double rate = 0.0;        ///< [Hz]; sample k at k / rate after simulated time 0
-  std::int64_t delay = 0;   ///< [ns], from a sample to its output, on average
-  std::int64_t jitter = 0;  ///< [ns], that it is more or less at most, evenly distributed
+  std::int64_t delay = 0;   ///< [ns], from a sample to its output, mean
+  std::int64_t jitter = 0;  ///< [ns], largest deviation of the delay, uniformly distributed
   std::uint32_t jitter_seed = 1;
-  std::vector<std::string> measured;  ///< "rotor.x", as the scene names them
+  std::vector<std::string> measured;  ///< "rotor.x", the names in the scene
   std::vector<SignalSpec> measures;
   std::vector<std::string> acted_on;  ///< "rotor.force_x"
   std::vector<ActedInput> acts_on;
-  SensorSettings sensor;  ///< of everything it measures
+  SensorSettings sensor;  ///< for all measured signals
   std::uint32_t seed = 1;
-  ActuatorSettings actuator;  ///< of everything it acts on
+  ActuatorSettings actuator;  ///< for all inputs acted on
   ParameterValues parameters;
   std::map<std::string, std::string> following;  ///< as SystemSpec::following
   Settings settings;
 
-  // Of one that brings a shaft to a speed.
-  std::vector<SpeedBand> critical_bands;   ///< that it avoids, besides those of its parameters
-  std::vector<WeakPassage> weak_passages;  ///< on its way, in their order
+  // Of a controller of the speed of a shaft.
+  std::vector<SpeedBand> critical_bands;  ///< bands that it avoids, besides those of its parameters
+  std::vector<ResonancePassageCheck> weak_passages;  ///< on its way, in order
 };
 
 }  // namespace whirl_twin

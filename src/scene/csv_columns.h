@@ -1,4 +1,4 @@
-// Columns of numbers out of a file of comma-separated values with a line of names at its top.
+// Reads columns of numbers from a file of comma-separated values with a header line.
 #pragma once
 
 #include <string>
@@ -6,11 +6,15 @@
 
 namespace whirl_twin {
 
-/// The columns of these names, each with a number for every row. Throws Refusal with
-/// what is wrong, its row and column named: no file, a larger one than 64 MiB, columns of the
-/// same name (all of them, whether asked for or not), no such column, a row with more values than
-/// there are names, or without a finite number there.
+/// The columns of these names, each with a number for every row. Throws InputError with the row and
+/// column of the error: no file, a file larger than 64 MiB, duplicate column names (whether or not
+/// they are requested), no such column, a row with more values than names, or without a finite
+/// number in a requested column.
 std::vector<std::vector<double>> csvColumns(const std::string& path,
                                             const std::vector<std::string>& names);
+
+/// The cells of one line, without surrounding blanks and quotation marks, and without a byte order
+/// mark.
+std::vector<std::string> csvCells(const std::string& line);
 
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "control/exclusion_bands.h"
 #include "control/motor.h"
 #include "control/speed_profile.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -38,66 +38,67 @@ double profileDuration(const DriveSpec& drive) {
 namespace {
 
 std::vector<SpeedMove> readProfile(const YAML::Node& list, const std::string& key,
-                                   Complaints& complaints) {
+                                   Diagnostics& diagnostics) {
   std::vector<SpeedMove> profile;
   if (!list.IsSequence()) {
-    complaints.add(key, fmt::format("must be a list of moves, found {}", shown(list)));
+    diagnostics.add(key, fmt::format("must be a list of moves, found {}", shown(list)));
     return profile;
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
     const MapReader move(list[i], fmt::format("{}[{}]", key, i),
                          {"speed", "max_acceleration", "max_jerk", "dwell"}, "key of a move",
-                         complaints);
+                         diagnostics);
     SpeedMove m;
-    m.speed = move.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
+    m.speed = move.numberBetween("speed", -kMaxSpeed, kMaxSpeed, "rad/s", std::nullopt);
     m.max_acceleration = move.number("max_acceleration", Range::kPositive, "rad/s^2", std::nullopt);
     m.max_jerk = move.has("max_jerk")
                      ? move.number("max_jerk", Range::kPositive, "rad/s^3", std::nullopt)
                      : 0.0;
-    m.dwell = move.numberBetween("dwell", 0.0, kLongestDuration, "s", 0.0);
+    m.dwell = move.numberBetween("dwell", 0.0, kMaxDuration, "s", 0.0);
     profile.push_back(m);
   }
   return profile;
 }
 
 std::vector<MotorPoint> readMotorTable(const YAML::Node& list, const std::string& key,
-                                       Complaints& complaints) {
+                                       Diagnostics& diagnostics) {
   std::vector<MotorPoint> table;
-  if (!list.IsSequence() || list.size() < 2 || list.size() > Motor::kMostPoints) {
-    complaints.add(
+  if (!list.IsSequence() || list.size() < 2 || list.size() > Motor::kMaxPoints) {
+    diagnostics.add(
         key, fmt::format("must be a list of 2 to {} maps of speed and torque, found {}",
-                         Motor::kMostPoints,
+                         Motor::kMaxPoints,
                          list.IsSequence() ? fmt::format("{} maps", list.size()) : shown(list)));
     return table;
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
     const MapReader row(list[i], fmt::format("{}[{}]", key, i), {"speed", "torque"},
-                        "key of a motor's table", complaints);
+                        "key of a motor's table", diagnostics);
     MotorPoint point;
-    point.speed = row.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
+    point.speed = row.numberBetween("speed", -kMaxSpeed, kMaxSpeed, "rad/s", std::nullopt);
     point.torque = row.number("torque", Range::kAny, "N m", std::nullopt);
     if (row.usable() && !table.empty() && !(point.speed > table.back().speed)) {
-      complaints.add(row.key("speed"), fmt::format("must be greater than the one before, {} rad/s, "
-                                                   "found {}",
-                                                   table.back().speed, point.speed));
+      diagnostics.add(row.key("speed"),
+                      fmt::format("must be greater than the one before, {} rad/s, "
+                                  "found {}",
+                                  table.back().speed, point.speed));
     }
     table.push_back(point);
   }
   return table;
 }
 
-Motor readMotor(const YAML::Node& node, const std::string& key, Complaints& complaints) {
+Motor readMotor(const YAML::Node& node, const std::string& key, Diagnostics& diagnostics) {
   const MapReader map(node, key, {"torque", "stall_torque", "no_load_speed", "table", "drag"},
-                      "key of a motor", complaints);
+                      "key of a motor", diagnostics);
   Motor motor;
   if (!map.usable()) {
     return motor;
   }
   const bool falls = map.has("stall_torque") || map.has("no_load_speed");
   if (map.has("torque") + falls + map.has("table") != 1) {
-    complaints.add(key,
-                   "must be one of {torque}, {stall_torque, no_load_speed} and {table}, with a "
-                   "drag or without");
+    diagnostics.add(key,
+                    "must be one of {torque}, {stall_torque, no_load_speed} and {table}, with a "
+                    "drag or without");
   }
   if (map.has("torque")) {
     motor = Motor::constant(map.number("torque", Range::kAny, "N m", std::nullopt));
@@ -108,7 +109,7 @@ Motor readMotor(const YAML::Node& node, const std::string& key, Complaints& comp
         Motor::falling(stall, map.number("no_load_speed", Range::kPositive, "rad/s", std::nullopt));
   }
   if (map.has("table")) {
-    const auto table = readMotorTable(map.at("table"), map.key("table"), complaints);
+    const auto table = readMotorTable(map.at("table"), map.key("table"), diagnostics);
     std::copy(table.begin(), table.end(), motor.points.begin());
     motor.count = table.size();
   }
@@ -119,32 +120,32 @@ Motor readMotor(const YAML::Node& node, const std::string& key, Complaints& comp
 }  // namespace
 
 DriveSpec readDrive(const YAML::Node& node, const std::string& key, const std::string& name,
-                    std::int64_t start, Complaints& complaints) {
+                    std::int64_t start, Diagnostics& diagnostics) {
   DriveSpec drive;
   drive.name = name;
   const MapReader map(node, key, {"speed", "angle", "profile", "motor", "avoid"}, "key of a drive",
-                      complaints);
+                      diagnostics);
   if (!map.usable()) {
     return drive;
   }
-  const std::size_t before = complaints.all().size();
-  drive.speed = map.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", 0.0);
+  const std::size_t before = diagnostics.all().size();
+  drive.speed = map.numberBetween("speed", -kMaxSpeed, kMaxSpeed, "rad/s", 0.0);
   drive.angle = map.numberBetween("angle", -1.0e15, 1.0e15, "rad", 0.0);
   if (map.has("motor")) {
-    drive.motor = readMotor(map.at("motor"), map.key("motor"), complaints);
+    drive.motor = readMotor(map.at("motor"), map.key("motor"), diagnostics);
     if (map.has("profile")) {
-      complaints.add(map.key("profile"),
-                     "a motor's speed is not prescribed: give a motor or a profile, not both");
+      diagnostics.add(map.key("profile"),
+                      "a motor's speed is not prescribed: give a motor or a profile, not both");
     }
   }
   if (map.has("profile")) {
-    drive.profile = readProfile(map.at("profile"), map.key("profile"), complaints);
+    drive.profile = readProfile(map.at("profile"), map.key("profile"), diagnostics);
   }
-  if (complaints.all().size() == before) {
-    try {  // what only the whole profile shows, such as moves that last longer than can be timed
+  if (diagnostics.all().size() == before) {
+    try {  // errors of the profile as a whole, such as durations out of range
       static_cast<void>(Drive(drive.speed, drive.angle, drive.profile, start));
-    } catch (const Refusal& error) {
-      complaints.add(key, error.what());
+    } catch (const InputError& error) {
+      diagnostics.add(key, error.what());
     }
   }
   return drive;

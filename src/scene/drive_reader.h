@@ -1,5 +1,5 @@
-// Reads a drive of a scene: its speed and angle at the start, and the moves of its profile
-// or the law of its motor. What it avoids is read when the systems have been (avoidance_reader.h).
+// Reads a drive of a scene: initial speed and angle, and the moves of its profile or the
+// characteristic of its motor. `avoid` is read after the systems (avoidance_reader.h).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace whirl_twin {
 
-// How long the moves of a drive last.
+// Durations of the moves of a drive.
 
 /// Duration [s] of the change of speed of each move of a drive's profile, without the dwell.
 std::vector<double> changeDurations(const DriveSpec& drive);
@@ -19,9 +19,9 @@ std::vector<double> changeDurations(const DriveSpec& drive);
 /// Duration [s] of the whole profile, dwells included; 0 for a drive without one.
 double profileDuration(const DriveSpec& drive);
 
-/// The drive `name` under `key`; start [ns] is the scene's. Complains of everything that does not
-/// fit.
+/// Reads the drive `name` under `key`; start [ns] is the scene's. Adds a diagnostic for every
+/// error.
 DriveSpec readDrive(const YAML::Node& node, const std::string& key, const std::string& name,
-                    std::int64_t start, Complaints& complaints);
+                    std::int64_t start, Diagnostics& diagnostics);
 
 }  // namespace whirl_twin

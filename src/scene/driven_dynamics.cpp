@@ -55,32 +55,34 @@ class DrivenDynamics final : public Dynamics {
   }
 
   VectorXd acceleration(const VectorXd& q, const VectorXd& v,
-                        const Moment<double>& at) const override {
+                        const EvaluationPoint<double>& at) const override {
     const VectorXd force = pushed(q, at);
     const Eigen::MatrixXd mass = system_->massMatrix(q, v, at);
     return system_->acceleration(q, v, at) +
            (mass.size() == 1 ? VectorXd(force / mass(0, 0)) : VectorXd(Ldlt(mass).solve(force)));
   }
-  VectorXd unbalancedForce(const VectorXd& q, const VectorXd& v,
-                           const Moment<double>& at) const override {
-    return system_->unbalancedForce(q, v, at) + pushed(q, at);
+  VectorXd residualForce(const VectorXd& q, const VectorXd& v,
+                         const EvaluationPoint<double>& at) const override {
+    return system_->residualForce(q, v, at) + pushed(q, at);
   }
   VectorXd appliedForce(const VectorXd& q, const VectorXd& v,
-                        const Moment<double>& at) const override {
+                        const EvaluationPoint<double>& at) const override {
     return system_->appliedForce(q, v, at) + pushed(q, at);
   }
   Eigen::MatrixXd massMatrix(const VectorXd& q, const VectorXd& v,
-                             const Moment<double>& at) const override {
+                             const EvaluationPoint<double>& at) const override {
     return system_->massMatrix(q, v, at);
   }
-  VectorXd momenta(const VectorXd& q, const VectorXd& v, const Moment<double>& at) const override {
+  VectorXd momenta(const VectorXd& q, const VectorXd& v,
+                   const EvaluationPoint<double>& at) const override {
     return system_->momenta(q, v, at);
   }
-  Energies energies(const VectorXd& q, const VectorXd& v, const Moment<double>& at) const override {
+  Energies energies(const VectorXd& q, const VectorXd& v,
+                    const EvaluationPoint<double>& at) const override {
     return system_->energies(q, v, at);
   }
   Linearization linearization(const VectorXd& q, const VectorXd& v, const VectorXd& a,
-                              const Moment<double>& at) const override {
+                              const EvaluationPoint<double>& at) const override {
     Linearization l = system_->linearization(q, v, a, at);
     if (!by_place_) {
       return l;
@@ -91,20 +93,20 @@ class DrivenDynamics final : public Dynamics {
     return l;
   }
   std::vector<Reaction> reactions(const VectorXd& q, const VectorXd& v, const VectorXd& a,
-                                  const Moment<double>& at) const override {
+                                  const EvaluationPoint<double>& at) const override {
     return system_->reactions(q, v, a, at);
   }
   std::vector<Condition> conditions(const VectorXd& q, const VectorXd& v, const VectorXd& a,
-                                    const Moment<double>& at) const override {
+                                    const EvaluationPoint<double>& at) const override {
     return system_->conditions(q, v, a, at);
   }
   std::vector<DryHold> dryHolds(const VectorXd& q, const VectorXd& v, const VectorXd& applied,
-                                const Moment<double>& at) const override {
+                                const EvaluationPoint<double>& at) const override {
     return system_->dryHolds(q, v, applied + pushed(q, at), at);
   }
   std::string singularMass() const override { return system_->singularMass(); }
   std::vector<Station> stations() const override { return system_->stations(); }
-  Sketch sketch(const VectorXd& q, const Moment<double>& at) const override {
+  Sketch sketch(const VectorXd& q, const EvaluationPoint<double>& at) const override {
     return system_->sketch(q, at);
   }
 
@@ -118,7 +120,7 @@ class DrivenDynamics final : public Dynamics {
     const InputSignal& signal = signals_[static_cast<std::size_t>(acting.input)];
     return signal.amplitude * std::cos(signal.frequency * time + signal.phase);
   }
-  HeldInputs held(const VectorXd& q, const Moment<double>& at) const {
+  HeldInputs held(const VectorXd& q, const EvaluationPoint<double>& at) const {
     VectorXd values = VectorXd::Zero(static_cast<Eigen::Index>(signals_.size()));
     for (const Acting& acting : acting_) {
       values[acting.input] = value(acting, at.time);
@@ -126,7 +128,7 @@ class DrivenDynamics final : public Dynamics {
     return heldInputs(*system_, q, values);
   }
   /// The generalized force of the inputs.
-  VectorXd pushed(const VectorXd& q, const Moment<double>& at) const {
+  VectorXd pushed(const VectorXd& q, const EvaluationPoint<double>& at) const {
     if (by_place_) {
       return held(q, at).force;
     }
@@ -140,7 +142,7 @@ class DrivenDynamics final : public Dynamics {
   std::shared_ptr<const Dynamics> system_;
   std::vector<InputSignal> signals_;  // of all inputs
   std::vector<Acting> acting_;
-  /// What inputs do depends on the place, as the currents of magnets do.
+  /// The input forces depend on the coordinates, as those of magnet currents do.
   bool by_place_ = dynamic_cast<const LocallyForcedRotor*>(system_.get()) != nullptr;
 };
 

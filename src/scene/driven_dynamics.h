@@ -1,6 +1,6 @@
-// A system with the harmonic inputs that its scene gives it, as equations of their own. Small
-// motions of a linear system do not see such an input. Those of any other are about the periodic
-// motion that the input drives, and only its multipliers (analysis/floquet.h) judge them.
+// A system with the harmonic inputs of its scene as one set of equations. Small motions of a linear
+// system do not depend on such an input. For any other system they are about the periodic motion
+// that the input drives, whose stability follows from its multipliers (analysis/floquet.h).
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace whirl_twin {
 
-/// The dynamics that its stability is judged by: those given, where no harmonic input acts or they
-/// are linear; with these inputs otherwise, at zero in atMeanLoad(). Inputs of other kinds are left
-/// out: commands, tables and constants are no part of a system's own motion.
+/// The dynamics for the stability analysis: the given ones if no harmonic input acts or they are
+/// linear; otherwise with these inputs, which are zero in atMeanLoad(). Inputs of other kinds are
+/// excluded: commands, tables and constants are not part of a system's free motion.
 std::shared_ptr<const Dynamics> judgedDynamics(std::shared_ptr<const Dynamics> dynamics,
                                                const SystemSpec& spec);
 

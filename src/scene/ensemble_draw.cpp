@@ -20,11 +20,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kCorrelationRounding = 1.0e-6;  // of a matrix written with some ten digits
+constexpr double kCorrelationRounding = 1.0e-6;  // for a matrix written with some ten digits
 
-/// The place of a number among those that are spread.
+/// Index of a number among the spreads.
 std::optional<Eigen::Index> placeOf(const YAML::Node& path, const std::string& key,
-                                    const EnsembleSpec& ensemble, Complaints& complaints) {
+                                    const EnsembleSpec& ensemble, Diagnostics& diagnostics) {
   std::vector<std::string> known;
   for (const Spread& spread : ensemble.spread) {
     known.push_back(spread.path);
@@ -33,46 +33,47 @@ std::optional<Eigen::Index> placeOf(const YAML::Node& path, const std::string& k
   const auto found = std::find(known.begin(), known.end(), name);
   if (found == known.end()) {
     const std::string near = nearestName(name, known);
-    complaints.add(key, fmt::format("must be parameters with a spread, found {}{}", shown(path),
-                                    near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    diagnostics.add(key,
+                    fmt::format("must be parameters with a spread, found {}{}", shown(path),
+                                near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
     return std::nullopt;
   }
   if (!ensemble.spread[static_cast<std::size_t>(found - known.begin())].normal) {
-    complaints.add(
+    diagnostics.add(
         key,
         fmt::format("correlations need normal distributions (standard_deviation); {} is uniform",
-                    whirl_twin::quoted(name)));
+                    whirl_twin::inQuotes(name)));
     return std::nullopt;
   }
   return found - known.begin();
 }
 
 void readPair(const YAML::Node& entry, const std::string& key, const EnsembleSpec& ensemble,
-              Eigen::MatrixXd& matrix, Complaints& complaints) {
+              Eigen::MatrixXd& matrix, Diagnostics& diagnostics) {
   constexpr double kNone = 2.0;
   const double value = entry.IsSequence() && entry.size() == 3 && entry[2].IsScalar()
                            ? parseNumber(entry[2].Scalar()).value_or(kNone)
                            : kNone;
   if (std::fabs(value) > 1.0) {
-    complaints.add(key, "must be [parameter, other parameter, correlation from -1 to 1]");
+    diagnostics.add(key, "must be [parameter, other parameter, correlation from -1 to 1]");
     return;
   }
-  const auto a = placeOf(entry[0], key, ensemble, complaints);
-  const auto b = placeOf(entry[1], key, ensemble, complaints);
+  const auto a = placeOf(entry[0], key, ensemble, diagnostics);
+  const auto b = placeOf(entry[1], key, ensemble, diagnostics);
   if (!a || !b) {
     return;
   }
   if (*a == *b || !std::isnan(matrix(*a, *b))) {
-    complaints.add(
+    diagnostics.add(
         key,
-        fmt::format("the correlation of {} and {} {}", whirl_twin::quoted(entry[0].Scalar()),
-                    whirl_twin::quoted(entry[1].Scalar()), *a == *b ? "is 1" : "is given twice"));
+        fmt::format("the correlation of {} and {} {}", whirl_twin::inQuotes(entry[0].Scalar()),
+                    whirl_twin::inQuotes(entry[1].Scalar()), *a == *b ? "is 1" : "is given twice"));
     return;
   }
   matrix(*a, *b) = matrix(*b, *a) = value;
 }
 
-/// Cholesky's, of a matrix that may be singular.
+/// Cholesky factor of a matrix that may be singular.
 Eigen::MatrixXd factorOf(const Eigen::MatrixXd& matrix) {
   const Eigen::Index n = matrix.rows();
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n);
@@ -90,9 +91,9 @@ Eigen::MatrixXd factorOf(const Eigen::MatrixXd& matrix) {
 }  // namespace
 
 void readCorrelations(const YAML::Node& node, const std::string& key, EnsembleSpec& ensemble,
-                      Complaints& complaints) {
+                      Diagnostics& diagnostics) {
   if (!node.IsSequence()) {
-    complaints.add(
+    diagnostics.add(
         key, fmt::format("must be a list of [parameter, other parameter, correlation], found {}",
                          shown(node)));
     return;
@@ -100,17 +101,17 @@ void readCorrelations(const YAML::Node& node, const std::string& key, EnsembleSp
   const auto n = static_cast<Eigen::Index>(ensemble.spread.size());
   Eigen::MatrixXd matrix =
       Eigen::MatrixXd::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
-  const std::size_t before = complaints.all().size();
+  const std::size_t before = diagnostics.all().size();
   for (std::size_t i = 0; i < node.size(); ++i) {
-    readPair(node[i], fmt::format("{}[{}]", key, i), ensemble, matrix, complaints);
+    readPair(node[i], fmt::format("{}[{}]", key, i), ensemble, matrix, diagnostics);
   }
-  if (complaints.all().size() > before) {
+  if (diagnostics.all().size() > before) {
     return;
   }
   matrix = matrix.array().isNaN().select(Eigen::MatrixXd::Identity(n, n), matrix);
   const double lowest = symmetricEigenvalues(matrix).minCoeff();
   if (lowest < -kCorrelationRounding) {
-    complaints.add(
+    diagnostics.add(
         key,
         fmt::format(
             "the correlation matrix must be positive semidefinite, found an eigenvalue of {:.3g}",
@@ -158,9 +159,9 @@ std::vector<double> independent(const EnsembleSpec& ensemble,
 
 namespace {
 
-constexpr int kMostDraws = 1000;
+constexpr int kMaxDraws = 1000;
 
-// The engine is the standard's, the same everywhere; its distributions are not, Boost's are.
+// std::mt19937_64 is specified by the standard, its distributions are not: Boost's are used.
 double deviation(const Spread& spread, std::mt19937_64& random) {
   if (spread.normal) {
     return boost::random::normal_distribution<double>(0.0, spread.width)(random);
@@ -168,22 +169,22 @@ double deviation(const Spread& spread, std::mt19937_64& random) {
   return boost::random::uniform_real_distribution<double>(-spread.width, spread.width)(random);
 }
 
-/// Puts one number into `member`; false: it is out of range.
+/// Sets one number of a sample; false if it is out of range.
 bool put(const Spread& spread, double value, const ModelInfo& model, SystemSpec& member) {
   if (spread.kind != Spread::Kind::kParameter) {
     (spread.kind == Spread::Kind::kRate ? member.v : member.q)[spread.coordinate] = value;
     return std::isfinite(value);
   }
-  Complaints complaints("");
-  return setParameter(spread.path, value, model, member, complaints);
+  Diagnostics diagnostics("");
+  return setParameter(spread.path, value, model, member, diagnostics);
 }
 
 [[noreturn]] void refuseDraws(const std::string& what) {
-  throw Refusal(
-      fmt::format("{}: none of {} random draws is within the parameter's range", what, kMostDraws));
+  throw InputError(
+      fmt::format("{}: none of {} random draws is within the parameter's range", what, kMaxDraws));
 }
 
-/// Number by number, each drawn again until it is in its range.
+/// Draws the numbers independently, each until it is in its range.
 void drawApart(const SystemSpec& spec, const ModelInfo& model, std::mt19937_64& random,
                DrawnMember& member) {
   for (const Spread& spread : spec.ensemble.spread) {
@@ -191,7 +192,7 @@ void drawApart(const SystemSpec& spec, const ModelInfo& model, std::mt19937_64& 
     double value = about + deviation(spread, random);
     int draws = 1;
     while (!put(spread, value, model, member.spec)) {
-      if (++draws > kMostDraws) {
+      if (++draws > kMaxDraws) {
         refuseDraws(spread.path);
       }
       value = about + deviation(spread, random);
@@ -200,12 +201,12 @@ void drawApart(const SystemSpec& spec, const ModelInfo& model, std::mt19937_64& 
   }
 }
 
-/// All of them drawn again until each is in its range.
+/// Draws all numbers jointly until each is in its range.
 void drawTogether(const SystemSpec& spec, const ModelInfo& model, std::mt19937_64& random,
                   DrawnMember& member) {
   const std::vector<Spread>& spreads = spec.ensemble.spread;
   std::size_t outside = 0;
-  for (int draws = 0; draws < kMostDraws; ++draws) {
+  for (int draws = 0; draws < kMaxDraws; ++draws) {
     std::vector<double> independent;
     for (const Spread& spread : spreads) {
       independent.push_back(deviation(spread, random));
@@ -264,10 +265,10 @@ std::optional<SystemSpec> memberAt(const SystemSpec& spec, const ModelInfo& mode
   return member;
 }
 
-std::string spreadObjection(const SystemSpec& spec, const ModelInfo& model) {
+std::string toleranceDiagnostic(const SystemSpec& spec, const ModelInfo& model) {
   try {
     static_cast<void>(drawnMember(spec, model, 0));
-  } catch (const Refusal& error) {
+  } catch (const InputError& error) {
     return error.what();
   }
   return "";

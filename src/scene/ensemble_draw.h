@@ -1,5 +1,5 @@
-// Draws the members of an ensemble. A member depends on the seed and its own number only: another
-// count, or another machine, gives the same members.
+// Draws the samples of an ensemble. A sample depends on the seed and its index only: a different
+// count, or a different machine, gives the same samples.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -15,19 +15,19 @@
 
 namespace whirl_twin {
 
-// Which numbers of a spread go together: correlations, and the factor that draws of them need.
+// Correlations of the numbers with a spread, and the factor for drawing them.
 
-/// Reads a list of [one number, another, correlation], by their paths, and fills the factor of an
-/// ensemble whose spreads have been read; complains of everything that does not fit.
+/// Reads a list of [path of a number, path of another one, correlation], and fills the factor of an
+/// ensemble whose spreads have been read; adds a diagnostic for every error.
 void readCorrelations(const YAML::Node& node, const std::string& key, EnsembleSpec& ensemble,
-                      Complaints& complaints);
+                      Diagnostics& diagnostics);
 
-/// The deviations [each in the unit of its number] that independent ones of the same widths make:
-/// row i of the factor, times the deviations in parts of their widths, times width i. As they are
-/// where nothing is correlated.
+/// Correlated deviations [each in the unit of its number] from independent ones of the same widths:
+/// row i of the factor, times the deviations relative to their widths, times width i. Unchanged
+/// without correlations.
 std::vector<double> correlated(const EnsembleSpec& ensemble,
                                const std::vector<double>& independent);
-/// The other way round; 0 of one that the others tell.
+/// The inverse of correlated(); 0 for a deviation that the others determine.
 std::vector<double> independent(const EnsembleSpec& ensemble,
                                 const std::vector<double>& correlated);
 
@@ -36,20 +36,20 @@ struct DrawnMember {
   std::vector<double> values;  ///< of spec.ensemble.spread, in its order
 };
 
-/// Member `index` of the ensemble of `spec`. A value outside its parameter's range is drawn again;
-/// a parameter that by default is another's (stiffness_y), and has that one's value in the scene,
-/// goes with it. Throws Refusal where hardly a draw is in range.
+/// Sample `index` of the ensemble of `spec`. A value outside its parameter's range is drawn again;
+/// a parameter that defaults to another one (stiffness_y), and equals it in the scene, follows it.
+/// Throws InputError if none of many draws is in range.
 DrawnMember drawnMember(const SystemSpec& spec, const ModelInfo& model, std::size_t index);
 
-/// What a number is spread about.
+/// The value in the scene of a number with a spread.
 double centreOf(const Spread& spread, const SystemSpec& spec, const ModelInfo& model);
 
-/// The system with these numbers, in the order of spec.ensemble.spread, and those that go with
-/// them; nothing where one is out of its range.
+/// The system with these numbers, in the order of spec.ensemble.spread, and those that follow them;
+/// nothing if one is out of its range.
 std::optional<SystemSpec> memberAt(const SystemSpec& spec, const ModelInfo& model,
                                    const std::vector<double>& values);
 
 /// Why an ensemble cannot be drawn; "" if it can.
-std::string spreadObjection(const SystemSpec& spec, const ModelInfo& model);
+std::string toleranceDiagnostic(const SystemSpec& spec, const ModelInfo& model);
 
 }  // namespace whirl_twin

@@ -16,10 +16,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kMostMembers = 100000;
-constexpr int kLargestSeed = 1000000000;
+constexpr int kMaxMembers = 100000;
+constexpr int kMaxSeed = 1000000000;
 const std::string kInitial = "initial.";
-const std::string kCorrelations = "correlations";  // a key of spread that is no number of a model
+const std::string kCorrelations = "correlations";  // a key of spread, not a parameter
 
 struct Width {
   const char* key;
@@ -31,7 +31,7 @@ constexpr std::array<Width, 4> kWidths{{{"standard_deviation", true, false},
                                         {"relative_standard_deviation", true, true},
                                         {"relative_half_width", false, true}}};
 
-/// "-" for a number that the model does not have.
+/// The unit of a parameter; "-" if the model does not have it.
 std::string unitOf(const std::string& path, const ModelInfo& model,
                    const std::vector<CoordinateInfo>& coordinates, const Spread& spread) {
   if (spread.kind != Spread::Kind::kParameter) {
@@ -57,10 +57,10 @@ std::string unitOf(const std::string& path, const ModelInfo& model,
   return "-";
 }
 
-/// What the scene gives for the number that is spread, and where it is.
+/// The value in the scene of a number with a spread; sets its path and kind.
 std::optional<double> centre(const std::string& path, const ModelInfo& model,
                              const std::vector<CoordinateInfo>& coordinates, const SystemSpec& spec,
-                             Spread& spread, const std::string& key, Complaints& complaints) {
+                             Spread& spread, const std::string& key, Diagnostics& diagnostics) {
   spread.path = path;
   if (path.compare(0, kInitial.size(), kInitial) == 0) {
     std::vector<std::string> known;
@@ -75,24 +75,26 @@ std::optional<double> centre(const std::string& path, const ModelInfo& model,
       }
     }
     const std::string near = nearestName(path, known);
-    complaints.add(key, fmt::format("unknown coordinate of {}{}", spec.model,
-                                    near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    diagnostics.add(key,
+                    fmt::format("unknown coordinate of {}{}", spec.model,
+                                near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
     return std::nullopt;
   }
   const state::ParameterChange all = parametersOf(model, spec);
   const auto found = std::find(all.names.begin(), all.names.end(), path);
   if (found == all.names.end()) {
     const std::string near = nearestName(path, all.names);
-    complaints.add(key, fmt::format("unknown parameter of {}{}", spec.model,
-                                    near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    diagnostics.add(key,
+                    fmt::format("unknown parameter of {}{}", spec.model,
+                                near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
     return std::nullopt;
   }
   return all.values[static_cast<std::size_t>(found - all.names.begin())];
 }
 
-/// The one width that is given, complained of unless there is exactly one.
+/// Reads the width; adds a diagnostic unless exactly one is given.
 void readWidth(const MapReader& map, const std::string& key, double about, const std::string& unit,
-               Spread& spread, Complaints& complaints) {
+               Spread& spread, Diagnostics& diagnostics) {
   int given = 0;
   for (const Width& width : kWidths) {
     if (!map.has(width.key)) {
@@ -104,23 +106,23 @@ void readWidth(const MapReader& map, const std::string& key, double about, const
     spread.normal = width.normal;
     spread.width = width.relative ? value * std::fabs(about) : value;
     if (!std::isfinite(spread.width)) {
-      complaints.add(map.key(width.key), "exceeds the range of a double");
+      diagnostics.add(map.key(width.key), "exceeds the range of a double");
     }
     if (width.relative && about == 0.0) {
-      complaints.add(map.key(width.key),
-                     fmt::format("is relative, but the value is 0: give the width in {}", unit));
+      diagnostics.add(map.key(width.key),
+                      fmt::format("is relative, but the value is 0: give the width in {}", unit));
     }
   }
   if (given != 1) {
-    complaints.add(key, fmt::format("must have one of standard_deviation, half_width, "
-                                    "relative_standard_deviation, relative_half_width, found {}",
-                                    given == 0 ? "none" : "several"));
+    diagnostics.add(key, fmt::format("must have one of standard_deviation, half_width, "
+                                     "relative_standard_deviation, relative_half_width, found {}",
+                                     given == 0 ? "none" : "several"));
   }
 }
 
 void readSpread(const MapReader& map, const ModelInfo& model,
                 const std::vector<CoordinateInfo>& coordinates, SystemSpec& spec,
-                Complaints& complaints) {
+                Diagnostics& diagnostics) {
   std::vector<std::string> known;
   for (const Width& width : kWidths) {
     known.emplace_back(width.key);
@@ -129,12 +131,12 @@ void readSpread(const MapReader& map, const ModelInfo& model,
     if (path == kCorrelations) {
       continue;
     }
-    const MapReader entry(map.at(path), map.key(path), known, "key of a spread", complaints);
+    const MapReader entry(map.at(path), map.key(path), known, "key of a spread", diagnostics);
     Spread spread;
-    const auto about = centre(path, model, coordinates, spec, spread, map.key(path), complaints);
+    const auto about = centre(path, model, coordinates, spec, spread, map.key(path), diagnostics);
     if (entry.usable() && about) {
       readWidth(entry, map.key(path), *about, unitOf(path, model, coordinates, spread), spread,
-                complaints);
+                diagnostics);
       spec.ensemble.spread.push_back(spread);
     }
   }
@@ -144,40 +146,40 @@ void readSpread(const MapReader& map, const ModelInfo& model,
 
 void readEnsemble(const MapReader& system, const ModelInfo& model,
                   const std::vector<CoordinateInfo>& coordinates, SystemSpec& spec,
-                  Complaints& complaints) {
+                  Diagnostics& diagnostics) {
   if (!system.has("count") && !system.has("spread")) {
     if (system.has("seed")) {
-      complaints.add(system.key("seed"), "needs a spread, from which the samples are drawn");
+      diagnostics.add(system.key("seed"), "needs a spread, from which the samples are drawn");
     }
     return;
   }
-  const std::size_t before = complaints.all().size();
+  const std::size_t before = diagnostics.all().size();
   if (system.has("count")) {
-    spec.ensemble.count = static_cast<std::size_t>(system.integer("count", 1, kMostMembers, 1));
+    spec.ensemble.count = static_cast<std::size_t>(system.integer("count", 1, kMaxMembers, 1));
   }
-  spec.ensemble.seed = static_cast<std::uint32_t>(system.integer("seed", 0, kLargestSeed, 1));
+  spec.ensemble.seed = static_cast<std::uint32_t>(system.integer("seed", 0, kMaxSeed, 1));
   if (!system.has("spread")) {
-    complaints.add(
+    diagnostics.add(
         system.key("spread"),
         "missing; must name the parameters or initial values that differ between the samples");
     return;
   }
-  const MapReader spread(system.at("spread"), system.key("spread"), {}, "", complaints);
+  const MapReader spread(system.at("spread"), system.key("spread"), {}, "", diagnostics);
   if (!spread.usable()) {
     return;
   }
   if (spread.names().size() == (spread.has(kCorrelations) ? 1 : 0)) {
-    complaints.add(system.key("spread"), "must name a parameter or initial value, found none");
+    diagnostics.add(system.key("spread"), "must name a parameter or initial value, found none");
   }
-  readSpread(spread, model, coordinates, spec, complaints);
-  if (spread.has(kCorrelations) && complaints.all().size() == before) {
+  readSpread(spread, model, coordinates, spec, diagnostics);
+  if (spread.has(kCorrelations) && diagnostics.all().size() == before) {
     readCorrelations(spread.at(kCorrelations), spread.key(kCorrelations), spec.ensemble,
-                     complaints);
+                     diagnostics);
   }
-  if (complaints.all().size() == before) {
-    const std::string objection = spreadObjection(spec, model);
+  if (diagnostics.all().size() == before) {
+    const std::string objection = toleranceDiagnostic(spec, model);
     if (!objection.empty()) {
-      complaints.add(system.key("spread"), objection);
+      diagnostics.add(system.key("spread"), objection);
     }
   }
 }

@@ -1,5 +1,5 @@
-// Reads a system's `count`, `seed` and `spread`: the ensemble it stands for, or, without
-// a count, how well its numbers are known.
+// Reads a system's `count`, `seed` and `spread`: its ensemble, or, without a count, the uncertainty
+// of its numbers.
 #pragma once
 
 #include "models/model_info.h"
@@ -8,10 +8,10 @@
 
 namespace whirl_twin {
 
-/// Fills spec.ensemble, whose other parameters and initial values have been read; complains of
-/// everything that does not fit.
+/// Fills spec.ensemble, after the other parameters and initial values have been read; adds a
+/// diagnostic for every error.
 void readEnsemble(const MapReader& system, const ModelInfo& model,
                   const std::vector<CoordinateInfo>& coordinates, SystemSpec& spec,
-                  Complaints& complaints);
+                  Diagnostics& diagnostics);
 
 }  // namespace whirl_twin

@@ -5,17 +5,17 @@
 #include <memory>
 
 #include "analysis/equilibria.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
 namespace {
 
-/// Of a system that no motor turns.
+/// For a system without a motor.
 std::optional<Equilibrium> equilibriumFromZero(const Dynamics& dynamics, double speed) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(dynamics.dof());
-  // From the line of its bearings one path leads to where a shaft rests: the verdict on a long one
-  // takes long, and would change nothing.
+  // For a shaft, one path leads from the line of its bearings to the equilibrium: the stability
+  // analysis of a long one takes long and would not change the result.
   const bool shaft = dynamics.isRotor() && dynamics.dof() > 2;
   if (!dynamics.linear() && !shaft) {
     if (auto point = operatingPoint(dynamics, zero, zero, speed)) {
@@ -29,11 +29,11 @@ std::optional<Equilibrium> equilibriumFromZero(const Dynamics& dynamics, double 
 }  // namespace
 
 std::optional<StartingState> equilibriumStart(const ModelInfo& model, const SystemSpec& spec,
-                                              const ModelSetup& setup, const Surroundings& around,
+                                              const ModelSetup& setup, const ModelContext& around,
                                               double speed) {
   std::shared_ptr<const Dynamics> held = setup.dynamics;
   if (around.motor) {
-    Surroundings without = around;
+    ModelContext without = around;
     without.motor.reset();
     held = model.setUp(spec.parameters, spec.settings, without).dynamics;
   }
@@ -49,19 +49,19 @@ std::optional<StartingState> equilibriumStart(const ModelInfo& model, const Syst
 }
 
 bool startsAtEquilibrium(const SystemSpec& spec, const ModelSetup& setup,
-                         const Surroundings& around) {
+                         const ModelContext& around) {
   const auto choice = spec.settings.choices.find("gravity_on_shaft");
   return setup.dynamics->isRotor() && around.gravity != 0.0 &&
          choice != spec.settings.choices.end() && choice->second == "true";
 }
 
 void moveToEquilibrium(const SystemSpec& given, const std::optional<StartingState>& own,
-                       const Surroundings& around, SystemSpec& member) {
+                       const ModelContext& around, SystemSpec& member) {
   if (!given.rest) {
     return;
   }
   if (!own && given.rest->asked) {
-    throw Refusal(
+    throw InputError(
         fmt::format("no equilibrium to start at was found at {:g} rad/s", given.rest->speed));
   }
   const std::size_t shape = given.q.size() - (around.motor ? 1 : 0);

@@ -1,5 +1,5 @@
-// A start at rest: where a system hangs, sags or stands at the speed that its shaft starts with, so
-// that nothing but what excites it makes it vibrate.
+// Initial state at equilibrium: the static deflection of a system at the initial speed of its
+// shaft, so that only its excitation makes it vibrate.
 #pragma once
 
 #include <optional>
@@ -15,22 +15,22 @@ struct StartingState {
   std::vector<double> v;  ///< [rad/s] or [m/s], zero but for cyclic coordinates
 };
 
-/// The equilibrium or steady motion at a speed of the shaft [rad/s] that the system creeps to from
-/// all coordinates at 0, a bounded one if there is any; without its inputs, its controllers and
-/// what turns with its shaft. The angle of a motor's shaft stays at 0. Nothing where it rests
-/// nowhere, as journals without a film.
+/// The equilibrium or steady motion at a shaft speed [rad/s] that the system approaches
+/// quasi-statically from all coordinates at 0, a bounded one if there is any; without its inputs,
+/// its controllers and its synchronous forces. The angle of a motor's shaft remains 0. Nothing if
+/// there is no equilibrium, as of journals without an oil film.
 std::optional<StartingState> equilibriumStart(const ModelInfo& model, const SystemSpec& spec,
-                                              const ModelSetup& setup, const Surroundings& around,
+                                              const ModelSetup& setup, const ModelContext& around,
                                               double speed);
 
-/// Whether a scene that gives no `initial` starts it there: a rotor that feels the scene's gravity.
+/// Whether a scene without `initial` starts the system there: a rotor under the scene's gravity.
 bool startsAtEquilibrium(const SystemSpec& spec, const ModelSetup& setup,
-                         const Surroundings& around);
+                         const ModelContext& around);
 
-/// A member of an ensemble starts as far from its own equilibrium `own` as it was drawn from that
-/// of the system as given; where it has none, from 0. Throws Refusal where an equilibrium was asked
-/// for.
+/// Shifts the drawn initial state of an ensemble sample from the equilibrium of the given system to
+/// the sample's own equilibrium `own`, or to 0 if it has none. Throws InputError if the scene
+/// requires an equilibrium that the sample does not have.
 void moveToEquilibrium(const SystemSpec& given, const std::optional<StartingState>& own,
-                       const Surroundings& around, SystemSpec& member);
+                       const ModelContext& around, SystemSpec& member);
 
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 namespace whirl_twin {
 namespace {
 
-/// A free_rotor is a Jeffcott rotor that a torque turns, seen from its disc.
+/// A free_rotor is a Jeffcott rotor driven by a torque, in coordinates of its disc.
 std::optional<RotorOnMotor> freeRotor(const BuiltSystem& system) {
   const ModelInfo& jeffcott = *findModel("jeffcott_rotor");
   const ParameterValues& own = system.spec.parameters;
@@ -32,7 +32,7 @@ std::optional<RotorOnMotor> rotorOnMotor(const BuiltSystem& system) {
   if (!setup.around.motor) {
     return std::nullopt;
   }
-  Surroundings around = setup.around;
+  ModelContext around = setup.around;
   around.motor.reset();
   return RotorOnMotor{setup.model->setUp(setup.parameters, setup.settings, around).dynamics,
                       *setup.around.motor};

@@ -1,6 +1,5 @@
-// A rotor on its motor, taken apart: the rotor as it is while its shaft turns at a constant speed,
-// and the motor. Critical speeds are those of the first, Sommerfeld's effect is the balance of
-// both.
+// Splits a rotor driven by a motor into the rotor at a constant speed of its shaft, and the motor.
+// The rotor determines the critical speeds, the torque balance of both Sommerfeld's effect.
 #pragma once
 
 #include <memory>
@@ -15,17 +14,18 @@ namespace whirl_twin {
 
 struct RotorOnMotor {
   std::shared_ptr<const Dynamics> held;
-  Motor motor;  ///< with its drag
+  Motor motor;  ///< including its drag
 };
 
-/// Of a system that a motor of the scene turns, and of a free_rotor, whose torque is its own;
-/// nothing for any other.
+/// Of a system driven by a motor of the scene, and of a free_rotor, which has a torque; nothing for
+/// any other.
 std::optional<RotorOnMotor> rotorOnMotor(const BuiltSystem& system);
 
-/// The dynamics that have the system's critical speeds: with the shaft held, of a rotor on a motor.
+/// The dynamics that determine the critical speeds: for a rotor on a motor, those at constant
+/// speed.
 std::shared_ptr<const Dynamics> heldDynamics(const BuiltSystem& system);
 
-/// That its tables of bearings and pedestals cover; of another system every speed.
+/// The speeds that the system's tables of bearings and pedestals cover; without tables every speed.
 DataSpeeds tableSpeeds(const BuiltSystem& system);
 
 }  // namespace whirl_twin

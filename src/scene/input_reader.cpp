@@ -9,15 +9,15 @@
 #include <utility>
 
 #include "control/input_shaper.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "scene/csv_columns.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kSlowestShaped = 1.0e-6;        // rad/s, of what a shaper leaves at rest
-constexpr double kLargestShapedDamping = 0.999;  // of that
+constexpr double kSlowestShaped = 1.0e-6;    // rad/s, lowest frequency of a shaped mode
+constexpr double kMaxShapedDamping = 0.999;  // largest damping ratio of a shaped mode
 
 constexpr const char* kForms =
     "must be a number ({0}), {{amplitude, frequency, phase}}, {{times, values, hold}} or {{table, "
@@ -27,17 +27,17 @@ InputSignal readHarmonic(const MapReader& map, const std::string& unit) {
   const double amplitude = map.number("amplitude", Range::kAny, unit, std::nullopt);
   const double frequency =
       map.numberBetween("frequency", -kLargestFrequency, kLargestFrequency, "rad/s", std::nullopt);
-  const double phase = map.numberBetween("phase", -kLargestPhase, kLargestPhase, "rad", 0.0);
+  const double phase = map.numberBetween("phase", -kMaxPhase, kMaxPhase, "rad", 0.0);
   return InputSignal::harmonic(amplitude, frequency, phase);
 }
 
-/// Times in s; `name` is theirs. Throws Refusal that names the row.
+/// Times in s; `name` is their name. Throws InputError with the row.
 InputSignal tableOf(const std::vector<double>& times, const std::vector<double>& values, bool hold,
                     const std::string& name) {
   std::vector<std::int64_t> instants;
   for (std::size_t row = 0; row < times.size(); ++row) {
     if (!(std::fabs(times[row]) <= kMaxInstant)) {
-      throw Refusal(
+      throw InputError(
           fmt::format("row {}: {} must be within +-1e9 s, found {} s", row + 1, name, times[row]));
     }
     instants.push_back(std::llround(times[row] * 1e9));
@@ -45,21 +45,21 @@ InputSignal tableOf(const std::vector<double>& times, const std::vector<double>&
   InputSignal signal = InputSignal::table(std::move(instants), values, hold);
   const SignalFault fault = faultOf(signal);
   if (fault.expected != nullptr) {
-    throw Refusal(fmt::format("row {}: {} {} by at least 1 ns, found {} s", fault.row + 1, name,
-                              fault.expected, times[fault.row]));
+    throw InputError(fmt::format("row {}: {} {} by at least 1 ns, found {} s", fault.row + 1, name,
+                                 fault.expected, times[fault.row]));
   }
   return signal;
 }
 
 InputSignal readFile(const MapReader& map, const std::string& folder, bool hold,
-                     Complaints& complaints) {
+                     Diagnostics& diagnostics) {
   const std::string name = map.text("table", "");
   const std::string time = map.text("time", "time");
   const std::string value = map.text("value", "value");
   std::filesystem::path path(name);
   if (path.is_relative()) {
     if (folder.empty()) {
-      complaints.add(
+      diagnostics.add(
           map.key("table"),
           fmt::format("must be an absolute path (the scene was not read from a file), found '{}'",
                       name));
@@ -70,19 +70,19 @@ InputSignal readFile(const MapReader& map, const std::string& folder, bool hold,
   try {
     const std::vector<std::vector<double>> columns = csvColumns(path.string(), {time, value});
     return tableOf(columns[0], columns[1], hold, time);
-  } catch (const Refusal& error) {
-    complaints.add(map.key("table"), fmt::format("{}: {}", path.string(), error.what()));
+  } catch (const InputError& error) {
+    diagnostics.add(map.key("table"), fmt::format("{}: {}", path.string(), error.what()));
     return {};
   }
 }
 
-/// Empty after a complaint.
+/// Empty after a diagnostic.
 std::vector<double> readNumbers(const MapReader& map, const std::string& name,
-                                const std::string& unit, Complaints& complaints) {
+                                const std::string& unit, Diagnostics& diagnostics) {
   const YAML::Node list = map.has(name) ? map.at(name) : YAML::Node();
   if (!list.IsSequence() || list.size() == 0) {
-    complaints.add(map.key(name), fmt::format("must be a list of numbers in {}, found {}", unit,
-                                              list.IsSequence() ? "an empty one" : shown(list)));
+    diagnostics.add(map.key(name), fmt::format("must be a list of numbers in {}, found {}", unit,
+                                               list.IsSequence() ? "an empty one" : shown(list)));
     return {};
   }
   std::vector<double> numbers;
@@ -91,9 +91,9 @@ std::vector<double> readNumbers(const MapReader& map, const std::string& name,
     const std::optional<double> number =
         list[i].IsScalar() ? parseQuantity(list[i].Scalar(), unit) : std::nullopt;
     if (!number) {
-      complaints.add(fmt::format("{}[{}]", map.key(name), i),
-                     fmt::format("must be a finite number in {}, found {}{}", unit, shown(list[i]),
-                                 objectionToUnit(list[i], unit)));
+      diagnostics.add(fmt::format("{}[{}]", map.key(name), i),
+                      fmt::format("must be a finite number in {}, found {}{}", unit, shown(list[i]),
+                                  unitDiagnostic(list[i], unit)));
       sound = false;
     }
     numbers.push_back(number.value_or(0.0));
@@ -102,37 +102,38 @@ std::vector<double> readNumbers(const MapReader& map, const std::string& name,
 }
 
 InputSignal readLists(const MapReader& map, const std::string& unit, bool hold,
-                      Complaints& complaints) {
-  const std::vector<double> times = readNumbers(map, "times", "s", complaints);
-  const std::vector<double> values = readNumbers(map, "values", unit, complaints);
+                      Diagnostics& diagnostics) {
+  const std::vector<double> times = readNumbers(map, "times", "s", diagnostics);
+  const std::vector<double> values = readNumbers(map, "values", unit, diagnostics);
   if (times.empty() || values.empty()) {
     return {};
   }
   if (times.size() != values.size()) {
-    complaints.add(map.key("values"),
-                   fmt::format("must have as many entries as times, {}, found {}", times.size(),
-                               values.size()));
+    diagnostics.add(map.key("values"),
+                    fmt::format("must have as many entries as times, {}, found {}", times.size(),
+                                values.size()));
     return {};
   }
   try {
     return tableOf(times, values, hold, "the time");
-  } catch (const Refusal& error) {
-    complaints.add(map.key("times"), error.what());
+  } catch (const InputError& error) {
+    diagnostics.add(map.key("times"), error.what());
     return {};
   }
 }
 
-/// The signal as its `shaper` gives it.
-InputSignal readShaped(const MapReader& table, const InputSignal& signal, Complaints& complaints) {
+/// The signal filtered by its `shaper`.
+InputSignal readShaped(const MapReader& table, const InputSignal& signal,
+                       Diagnostics& diagnostics) {
   const MapReader map(table.at("shaper"), table.key("shaper"),
-                      {"type", "frequency", "damping_ratio"}, "key of a shaper", complaints);
+                      {"type", "frequency", "damping_ratio"}, "key of a shaper", diagnostics);
   if (!map.usable()) {
     return signal;
   }
   const std::string type = map.choice("type", {"zv", "zvd"}, "a shaper", "zv");
   const double frequency =
       map.numberBetween("frequency", kSlowestShaped, kLargestFrequency, "rad/s", std::nullopt);
-  const double damping = map.numberBetween("damping_ratio", 0.0, kLargestShapedDamping, "-", 0.0);
+  const double damping = map.numberBetween("damping_ratio", 0.0, kMaxShapedDamping, "-", 0.0);
   if (signal.kind != InputSignal::Kind::kTable || !(frequency > 0.0)) {
     return signal;
   }
@@ -141,34 +142,34 @@ InputSignal readShaped(const MapReader& table, const InputSignal& signal, Compla
 }
 
 InputSignal readSignalTable(const YAML::Node& node, const std::string& key, const std::string& unit,
-                            const std::string& folder, Complaints& complaints) {
+                            const std::string& folder, Diagnostics& diagnostics) {
   const bool file = node["table"].IsDefined();
   const MapReader map(node, key,
                       file ? std::vector<std::string>{"table", "time", "value", "hold", "shaper"}
                            : std::vector<std::string>{"times", "values", "hold", "shaper"},
-                      "key of a table", complaints);
+                      "key of a table", diagnostics);
   const bool hold = map.choice("hold", {"false", "true"}, "true or false", "false") == "true";
   const InputSignal signal =
-      file ? readFile(map, folder, hold, complaints) : readLists(map, unit, hold, complaints);
-  return map.has("shaper") ? readShaped(map, signal, complaints) : signal;
+      file ? readFile(map, folder, hold, diagnostics) : readLists(map, unit, hold, diagnostics);
+  return map.has("shaper") ? readShaped(map, signal, diagnostics) : signal;
 }
 
 InputSignal readSignal(const MapReader& inputs, const InputInfo& info, const std::string& folder,
-                       Complaints& complaints) {
+                       Diagnostics& diagnostics) {
   const YAML::Node node = inputs.at(info.name);
   const std::string key = inputs.key(info.name);
   if (node.IsScalar()) {
     return InputSignal::constant(inputs.number(info.name, Range::kAny, info.unit, std::nullopt));
   }
   if (!node.IsMap()) {
-    complaints.add(key, fmt::format(kForms, info.unit, shown(node)));
+    diagnostics.add(key, fmt::format(kForms, info.unit, shown(node)));
     return {};
   }
   if (node["table"].IsDefined() || node["times"].IsDefined() || node["values"].IsDefined()) {
-    return readSignalTable(node, key, info.unit, folder, complaints);
+    return readSignalTable(node, key, info.unit, folder, diagnostics);
   }
   const MapReader map(node, key, {"amplitude", "frequency", "phase"}, "key of a harmonic",
-                      complaints);
+                      diagnostics);
   return readHarmonic(map, info.unit);
 }
 
@@ -176,13 +177,13 @@ InputSignal readSignal(const MapReader& inputs, const InputInfo& info, const std
 
 std::map<std::string, InputSignal> readInputs(const MapReader& system,
                                               const std::vector<InputInfo>& inputs,
-                                              const std::string& folder, Complaints& complaints) {
+                                              const std::string& folder, Diagnostics& diagnostics) {
   std::map<std::string, InputSignal> signals;
   if (!system.has("inputs")) {
     return signals;
   }
   if (inputs.empty()) {
-    complaints.add(system.key("inputs"), "this model has no inputs");
+    diagnostics.add(system.key("inputs"), "this model has no inputs");
     return signals;
   }
   std::vector<std::string> known;
@@ -190,10 +191,10 @@ std::map<std::string, InputSignal> readInputs(const MapReader& system,
     known.push_back(input.name);
   }
   const MapReader map(system.at("inputs"), system.key("inputs"), known, "input of this model",
-                      complaints);
+                      diagnostics);
   for (const InputInfo& input : inputs) {
     if (map.usable() && map.has(input.name)) {
-      signals.emplace(input.name, readSignal(map, input, folder, complaints));
+      signals.emplace(input.name, readSignal(map, input, folder, diagnostics));
     }
   }
   return signals;

@@ -1,5 +1,5 @@
-// Reads what the inputs of a system follow: a number, a harmonic, or a table, in the scene or in a
-// file of comma-separated values, as it is or through an input shaper.
+// Reads the input signals of a system: a number, a harmonic, or a table, in the scene or in a file
+// of comma-separated values, direct or through an input shaper.
 #pragma once
 
 #include <map>
@@ -12,16 +12,16 @@
 
 namespace whirl_twin {
 
-/// Largest instant accepted, of a table or of the scene's start [s].
+/// Largest instant of a table or of the start of a scene [s].
 inline constexpr double kMaxInstant = 1.0e9;
 
-/// Those under `inputs` of a system, by name. `folder`: where tables with a relative path lie; "":
-/// the scene has none.
+/// Reads the `inputs` of a system, by name. `folder`: base of relative paths of tables; "": the
+/// scene has none.
 std::map<std::string, InputSignal> readInputs(const MapReader& system,
                                               const std::vector<InputInfo>& inputs,
-                                              const std::string& folder, Complaints& complaints);
+                                              const std::string& folder, Diagnostics& diagnostics);
 
-/// One signal for each input of a model, in its order; those not given do not act. Throws
+/// One signal for each input of a model, in its order; inputs not given are zero. Throws
 /// std::logic_error for a name that the model does not have.
 std::vector<InputSignal> signalsOf(const std::vector<InputInfo>& inputs,
                                    const std::map<std::string, InputSignal>& given);

@@ -1,4 +1,4 @@
-// Stands in models/ now; here for the plugins that were written when it stood here.
+// Moved to models/; kept for plugins that include it here.
 #pragma once
 
 #include "models/model_entry.h"  // IWYU pragma: export

@@ -14,7 +14,7 @@ namespace whirl_twin {
 
 namespace {
 
-/// A number and what is written behind it; nothing where it does not begin with a number.
+/// A number and its suffix; nothing unless the text begins with a number.
 std::optional<std::pair<double, std::string>> apart(const std::string& text) {
   const char* first = text.data();
   const char* const last = first + text.size();
@@ -48,22 +48,22 @@ std::optional<double> parseQuantity(const std::string& text, const std::string& 
   return scale != 0.0 && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
-std::string objectionToUnit(const YAML::Node& node, const std::string& unit) {
+std::string unitDiagnostic(const YAML::Node& node, const std::string& unit) {
   const auto parts = apart(node.IsScalar() ? node.Scalar() : "");
   if (!parts || parts->second.empty()) {
     return "";
   }
   if (!isUnit(parts->second)) {
-    return ": unknown unit " + quoted(parts->second);
+    return ": unknown unit " + inQuotes(parts->second);
   }
   if (unitScale(parts->second, unit) != 0.0) {
     return "";
   }
   return unit == "-" ? ": the value is dimensionless"
-                     : fmt::format(": {} cannot be converted to {}", quoted(parts->second), unit);
+                     : fmt::format(": {} cannot be converted to {}", inQuotes(parts->second), unit);
 }
 
-void Complaints::add(const std::string& key, const std::string& text) {
+void Diagnostics::add(const std::string& key, const std::string& text) {
   all_.push_back(key.empty() ? fmt::format("{}: {}", source_, text)
                              : fmt::format("{}: {}: {}", source_, printable(key), text));
 }
@@ -74,32 +74,32 @@ std::string shown(const YAML::Node& node) {
   }
   if (node.IsScalar()) {
     const std::string& text = node.Scalar();
-    return parseNumber(text) ? text : quoted(text);
+    return parseNumber(text) ? text : inQuotes(text);
   }
   return node.IsSequence() ? "a list" : "a map";
 }
 
 MapReader::MapReader(const YAML::Node& node, std::string key, const std::vector<std::string>& known,
-                     const std::string& kind, Complaints& complaints)
-    : key_(std::move(key)), complaints_(complaints) {
+                     const std::string& kind, Diagnostics& diagnostics)
+    : key_(std::move(key)), diagnostics_(diagnostics) {
   if (!node.IsMap()) {
-    complaints_.add(key_, fmt::format("must be a map of keys and values, found {}", shown(node)));
+    diagnostics_.add(key_, fmt::format("must be a map of keys and values, found {}", shown(node)));
     return;
   }
   usable_ = true;
   for (const auto& entry : node) {
     if (!entry.first.IsScalar()) {
-      complaints_.add(key_, fmt::format("a key must be a name, found {}", shown(entry.first)));
+      diagnostics_.add(key_, fmt::format("a key must be a name, found {}", shown(entry.first)));
       continue;
     }
     const std::string name = entry.first.Scalar();
     if (has(name)) {
-      complaints_.add(this->key(name), "duplicate key");
+      diagnostics_.add(this->key(name), "duplicate key");
       continue;
     }
-    const std::string unknown = known.empty() ? "" : objectionToName(name, known, kind);
+    const std::string unknown = known.empty() ? "" : nameDiagnostic(name, known, kind);
     if (!unknown.empty()) {
-      complaints_.add(this->key(name), unknown);
+      diagnostics_.add(this->key(name), unknown);
       continue;
     }
     place_.emplace(name, entries_.size());
@@ -134,7 +134,7 @@ double MapReader::checkedNumber(const std::string& name, const std::string& expe
                                 std::optional<double> fallback) const {
   if (!has(name)) {
     if (!fallback && usable_) {
-      complaints_.add(key(name), fmt::format("missing; must be {}", expected));
+      diagnostics_.add(key(name), fmt::format("missing; must be {}", expected));
     }
     return fallback.value_or(0.0);
   }
@@ -142,8 +142,8 @@ double MapReader::checkedNumber(const std::string& name, const std::string& expe
   const std::optional<double> value =
       node.IsScalar() ? parseQuantity(node.Scalar(), unit) : std::optional<double>();
   if (!value || !fits(*value)) {
-    complaints_.add(key(name), fmt::format("must be {}, found {}{}", expected, shown(node),
-                                           objectionToUnit(node, unit)));
+    diagnostics_.add(key(name), fmt::format("must be {}, found {}{}", expected, shown(node),
+                                            unitDiagnostic(node, unit)));
     return fallback.value_or(0.0);
   }
   return *value;
@@ -174,7 +174,7 @@ std::string MapReader::text(const std::string& name, const std::string& fallback
   }
   const YAML::Node node = at(name);
   if (!node.IsScalar() || node.Scalar().empty()) {
-    complaints_.add(key(name), fmt::format("must be a name, found {}", shown(node)));
+    diagnostics_.add(key(name), fmt::format("must be a name, found {}", shown(node)));
     return fallback;
   }
   return node.Scalar();
@@ -188,7 +188,7 @@ std::string MapReader::choice(const std::string& name, const std::vector<std::st
   }
   if (std::find(choices.begin(), choices.end(), value) == choices.end()) {
     const std::string near = nearestName(value, choices);
-    complaints_.add(
+    diagnostics_.add(
         key(name),
         fmt::format("must be {}, found {}{}", what, shown(at(name)),
                     near.empty() ? fmt::format("; there are: {}", fmt::join(choices, ", "))

@@ -21,7 +21,7 @@ struct Elsewhere {
   const char* ours;
 };
 
-/// What other programs and books call it.
+/// Names in other programs and books.
 constexpr std::array<Elsewhere, 27> kElsewhere = {{{"E", "youngs_modulus"},
                                                    {"elastic_modulus", "youngs_modulus"},
                                                    {"G", "shear_modulus"},
@@ -50,7 +50,7 @@ constexpr std::array<Elsewhere, 27> kElsewhere = {{{"E", "youngs_modulus"},
                                                    {"supports", "pedestals"},
                                                    {"foundation", "pedestals"}}};
 
-/// "" of a name that is nothing elsewhere, or nothing that there is here.
+/// The name here of a parameter of other programs; "" if unknown, or not among `known`.
 std::string nameHere(const std::string& name, const std::vector<std::string>& known) {
   const auto* const found =
       std::find_if(kElsewhere.begin(), kElsewhere.end(),
@@ -59,7 +59,7 @@ std::string nameHere(const std::string& name, const std::vector<std::string>& kn
     return "";
   }
   const std::string ours = found->ours;
-  // What stands on what is told by a table of its own, not where another program has it.
+  // Pedestals have a separate table, so they are not among the known columns.
   const bool has =
       ours == "pedestals" || std::find(known.begin(), known.end(), ours) != known.end();
   return has ? ours : "";
@@ -95,8 +95,8 @@ std::string objection(Range range, const std::string& unit, double value) {
                            expected(range, unit), value);
 }
 
-std::string objectionToName(const std::string& name, const std::vector<std::string>& known,
-                            const std::string& kind) {
+std::string nameDiagnostic(const std::string& name, const std::vector<std::string>& known,
+                           const std::string& kind) {
   if (std::find(known.begin(), known.end(), name) != known.end()) {
     return "";
   }
@@ -110,8 +110,9 @@ std::string objectionToName(const std::string& name, const std::vector<std::stri
 
 namespace {
 
-/// The matrices of more coordinates take longer to make than anything else that a reader does.
-constexpr int kMostCoordinates = 400;
+/// Systems with more coordinates are not checked: their matrices would take most of the reading
+/// time.
+constexpr int kMaxCoordinates = 400;
 
 double largestOf(const Eigen::MatrixXd& matrix) {
   if (matrix.size() == 0) {
@@ -121,13 +122,13 @@ double largestOf(const Eigen::MatrixXd& matrix) {
                             : std::numeric_limits<double>::infinity();
 }
 
-/// [1/s]; 0 where there is none that is known.
+/// [1/s]; 0 if it is not known.
 double largestRate(const Dynamics& dynamics, const SystemSpec& spec, double speed) {
   const auto n = static_cast<Eigen::Index>(spec.q.size());
   const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(spec.q.data(), n);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
-  const Moment<double> at{0.0, 0.0, speed, 0.0};
-  if (massIsSingular(dynamics, q, zero, at)) {  // by its numbers, or at this place
+  const EvaluationPoint<double> at{0.0, 0.0, speed, 0.0};
+  if (massIsSingular(dynamics, q, zero, at)) {  // by its parameters, or at these coordinates
     return dynamics.singularMass().empty() ? std::numeric_limits<double>::infinity() : 0.0;
   }
   const Linearization matrices = dynamics.linearization(q, zero, zero, at);
@@ -142,20 +143,20 @@ double largestRate(const Dynamics& dynamics, const SystemSpec& spec, double spee
 
 }  // namespace
 
-std::string objectionToRates(const Dynamics& dynamics, const SystemSpec& spec, double speed) {
-  if (dynamics.dof() > kMostCoordinates) {
+std::string ratesDiagnostic(const Dynamics& dynamics, const SystemSpec& spec, double speed) {
+  if (dynamics.dof() > kMaxCoordinates) {
     return "";
   }
   double rate = 0.0;
   try {
     rate = largestRate(dynamics, spec, speed);
-  } catch (const std::exception&) {  // it has no small deviations from there
+  } catch (const std::exception&) {  // it cannot be linearized there
   }
-  return rate <= kLargestRate ? ""
-                              : fmt::format(
-                                    "together give a fastest rate of {:.2g} 1/s: above {:.0e} 1/s "
-                                    "the equations overflow",
-                                    rate, kLargestRate);
+  return rate <= kMaxRate ? ""
+                          : fmt::format(
+                                "together give a fastest rate of {:.2g} 1/s: above {:.0e} 1/s "
+                                "the equations overflow",
+                                rate, kMaxRate);
 }
 
 }  // namespace whirl_twin

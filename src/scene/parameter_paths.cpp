@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-/// Of a model and a system, or of a kind of controller and a controller.
+/// For a model and a system, or a controller type and a controller.
 template <class Info, class Spec, class Visit>
 void eachNumber(const Info& info, const Spec& spec, const Visit& visit) {
   for (const ParameterInfo& p : info.parameters) {
@@ -29,7 +29,7 @@ void eachNumber(const Info& info, const Spec& spec, const Visit& visit) {
         }
       }
     } else if (matrix != spec.settings.matrices.end() &&
-               matrix->second.size() <= kMostMatrixEntries) {
+               matrix->second.size() <= kMaxMatrixEntries) {
       for (Eigen::Index i = 0; i < matrix->second.rows(); ++i) {
         for (Eigen::Index j = 0; j < matrix->second.cols(); ++j) {
           visit(fmt::format("{}[{}][{}]", setting.name, i, j), matrix->second(i, j));
@@ -39,7 +39,7 @@ void eachNumber(const Info& info, const Spec& spec, const Visit& visit) {
   }
 }
 
-/// A path taken apart: "bearings[0].kxx" is bearings, {0}, kxx.
+/// A parsed path: "bearings[0].kxx" is bearings, {0}, kxx.
 struct Path {
   std::string name;
   std::vector<std::size_t> indices;
@@ -67,14 +67,14 @@ std::optional<Path> parsed(const std::string& text) {
   return at == text.size() ? std::optional<Path>(path) : std::nullopt;
 }
 
-/// Where the parameter of a path stands, or why there is none.
+/// Location of the parameter of a path, or why there is none.
 template <class Number>
 struct Place {
   using Row = std::conditional_t<std::is_const_v<Number>, const TableRow, TableRow>;
   Number* number = nullptr;
   Range range = Range::kAny;
   std::string unit = "-";
-  std::string path;  ///< as complaints have it
+  std::string path;  ///< for diagnostics
   std::string objection;
   Row* row = nullptr;  ///< of a table; else a parameter or an entry of a matrix
   std::string column = "";
@@ -87,7 +87,7 @@ bool turnsShaft(const ControllerInfo&) {
   return false;
 }
 
-/// As eachNumber(); Spec const or not.
+/// Finds the number of a path; Spec may be const.
 template <class Info, class Spec>
 class Search {
  public:
@@ -129,7 +129,7 @@ class Search {
       for (const SettingInfo& s : info_.settings) {
         known.push_back(s.name);
       }
-      return none(path.name, objectionToName(path.name, known, "parameter of " + info_.name));
+      return none(path.name, nameDiagnostic(path.name, known, "parameter of " + info_.name));
     }
     if (!path.indices.empty() || !path.column.empty()) {
       return none(text_, "is a single number: write the name without an index");
@@ -166,7 +166,7 @@ class Search {
       for (const ColumnInfo& c : setting.columns) {
         known.push_back(c.name);
       }
-      return none(text_, objectionToName(path.column, known, "parameter of " + path.name));
+      return none(text_, nameDiagnostic(path.column, known, "parameter of " + path.name));
     }
     auto& row = table->second[path.indices[0]];
     return {
@@ -182,11 +182,11 @@ class Search {
     if (path.indices.size() != 2 || !path.column.empty()) {
       return none(text_, fmt::format("must be {}[row][column]", path.name));
     }
-    if (m.size() > kMostMatrixEntries) {
+    if (m.size() > kMaxMatrixEntries) {
       return none(
           text_,
           fmt::format("matrices of at most {} entries can be changed while the twin runs, found {}",
-                      kMostMatrixEntries, m.size()));
+                      kMaxMatrixEntries, m.size()));
     }
     const auto row = static_cast<Eigen::Index>(path.indices[0]);
     const auto column = static_cast<Eigen::Index>(path.indices[1]);
@@ -221,12 +221,12 @@ std::optional<double> numberAt(const std::string& path, const Info& info, const 
 
 template <class Info, class Spec>
 bool setNumber(const std::string& path, double value, const Info& info, Spec& spec,
-               const std::string& key, Complaints& complaints) {
+               const std::string& key, Diagnostics& diagnostics) {
   const Place<double> place = Search(path, info, spec).found();
   const std::string why =
       place.number == nullptr ? place.objection : objection(place.range, place.unit, value);
   if (!why.empty()) {
-    complaints.add(fmt::format("{}.{}.parameters.{}", key, spec.name, place.path), why);
+    diagnostics.add(fmt::format("{}.{}.parameters.{}", key, spec.name, place.path), why);
     return false;
   }
   if (place.row != nullptr) {
@@ -235,7 +235,7 @@ bool setNumber(const std::string& path, double value, const Info& info, Spec& sp
   }
   *place.number = value;
   spec.following.erase(path);
-  for (const ParameterInfo& p : info.parameters) {  // in their order: one may follow a follower
+  for (const ParameterInfo& p : info.parameters) {  // in order: followers may be chained
     const auto followed = spec.following.find(p.name);
     if (followed != spec.following.end()) {
       spec.parameters.at(p.name) = spec.parameters.at(followed->second);
@@ -268,12 +268,12 @@ std::string unitAt(const std::string& path, const ModelInfo& model, const System
 }
 
 bool setParameter(const std::string& path, double value, const ModelInfo& model, SystemSpec& spec,
-                  Complaints& complaints) {
-  return setNumber(path, value, model, spec, "systems", complaints);
+                  Diagnostics& diagnostics) {
+  return setNumber(path, value, model, spec, "systems", diagnostics);
 }
 bool setParameter(const std::string& path, double value, const ControllerInfo& info,
-                  ControllerSpec& spec, Complaints& complaints) {
-  return setNumber(path, value, info, spec, "controllers", complaints);
+                  ControllerSpec& spec, Diagnostics& diagnostics) {
+  return setNumber(path, value, info, spec, "controllers", diagnostics);
 }
 
 }  // namespace whirl_twin

@@ -1,5 +1,5 @@
-// Every number among the parameters of a system or a controller, by its path: `damping`, a table's
-// `bearings[0].kxx`, a matrix's `stiffness[0][1]`; rows and columns count from 0.
+// Access to every number among the parameters of a system or a controller by its path: `damping`, a
+// table's `bearings[0].kxx`, a matrix's `stiffness[0][1]`; rows and columns count from 0.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@
 
 namespace whirl_twin {
 
-/// Matrices of more entries than this have no paths: their sets of parameters would be too long to
-/// be sent at every change.
-inline constexpr int kMostMatrixEntries = 400;
+/// Matrices with more entries have no paths: their sets of parameters would be too long to be
+/// published at every change.
+inline constexpr int kMaxMatrixEntries = 400;
 
-/// All of them with their values, in the order of the model; nothing `changed`.
+/// All numbers with their values, in the order of the model; `changed` is empty.
 state::ParameterChange parametersOf(const ModelInfo& model, const SystemSpec& spec);
 state::ParameterChange parametersOf(const ControllerInfo& info, const ControllerSpec& spec);
 
@@ -28,16 +28,16 @@ std::optional<double> parameterAt(const std::string& path, const ModelInfo& mode
 std::optional<double> parameterAt(const std::string& path, const ControllerInfo& info,
                                   const ControllerSpec& spec);
 
-/// The unit of the number at a path, "-" without; "" if there is none of that path.
+/// The unit of the number at a path, "-" if it has none; "" for an unknown path.
 std::string unitAt(const std::string& path, const ModelInfo& model, const SystemSpec& spec);
 
-/// Sets a number and those that follow it (SystemSpec::following, TableRow::following); it follows
-/// no other any more. Complains in the words of a scene file under the key systems.NAME.parameters
-/// or controllers.NAME.parameters, and changes nothing, if there is none of that path or it is out
-/// of range: false.
+/// Sets a number and those that follow it (SystemSpec::following, TableRow::following); it ceases
+/// to follow another one. For an unknown path or a value out of range it returns false, changes
+/// nothing, and adds a diagnostic under the key systems.NAME.parameters or
+/// controllers.NAME.parameters, as for a scene file.
 bool setParameter(const std::string& path, double value, const ModelInfo& model, SystemSpec& spec,
-                  Complaints& complaints);
+                  Diagnostics& diagnostics);
 bool setParameter(const std::string& path, double value, const ControllerInfo& info,
-                  ControllerSpec& spec, Complaints& complaints);
+                  ControllerSpec& spec, Diagnostics& diagnostics);
 
 }  // namespace whirl_twin

@@ -11,20 +11,20 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kLargestMatrix = 200;  // rows and columns
+constexpr std::size_t kMaxMatrix = 200;  // rows and columns
 
-/// A list of the tree, or nothing after a complaint.
+/// A list of the tree, or nothing after a diagnostic.
 std::optional<YAML::Node> list(const MapReader& map, const std::string& name, const std::string& of,
-                               Complaints& complaints) {
+                               Diagnostics& diagnostics) {
   const YAML::Node node = map.at(name);
   if (!node.IsSequence() || node.size() == 0) {
-    complaints.add(map.key(name), fmt::format("must be a list of {}, found {}", of,
-                                              node.IsSequence() ? "an empty list" : shown(node)));
+    diagnostics.add(map.key(name), fmt::format("must be a list of {}, found {}", of,
+                                               node.IsSequence() ? "an empty list" : shown(node)));
     return std::nullopt;
   }
-  if (node.size() > kLargestMatrix) {
-    complaints.add(map.key(name), fmt::format("must have up to {} entries, found {}",
-                                              kLargestMatrix, node.size()));
+  if (node.size() > kMaxMatrix) {
+    diagnostics.add(map.key(name),
+                    fmt::format("must have up to {} entries, found {}", kMaxMatrix, node.size()));
     return std::nullopt;
   }
   return node;
@@ -36,9 +36,9 @@ std::string rowKey(const MapReader& map, const std::string& name, std::size_t ro
 
 /// A list of lists; a list of numbers is a matrix of one row.
 std::optional<Eigen::MatrixXd> readMatrix(const MapReader& map, const SettingInfo& info,
-                                          Complaints& complaints) {
+                                          Diagnostics& diagnostics) {
   const auto given =
-      list(map, info.name, fmt::format("rows of numbers ({})", info.unit), complaints);
+      list(map, info.name, fmt::format("rows of numbers ({})", info.unit), diagnostics);
   if (!given) {
     return std::nullopt;
   }
@@ -46,27 +46,27 @@ std::optional<Eigen::MatrixXd> readMatrix(const MapReader& map, const SettingInf
   const std::vector<YAML::Node> rows = one_row
                                            ? std::vector<YAML::Node>{*given}
                                            : std::vector<YAML::Node>(given->begin(), given->end());
-  const std::size_t before = complaints.all().size();
+  const std::size_t before = diagnostics.all().size();
   Eigen::MatrixXd matrix;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const YAML::Node row = rows[i];
     const std::string key = one_row ? map.key(info.name) : rowKey(map, info.name, i);
     if (!row.IsSequence()) {
-      complaints.add(
+      diagnostics.add(
           key, fmt::format("must be a list of numbers ({}), found {}", info.unit, shown(row)));
       continue;
     }
     if (i == 0) {
-      if (row.size() == 0 || row.size() > kLargestMatrix) {
-        complaints.add(
-            key, fmt::format("must have 1 to {} numbers, found {}", kLargestMatrix, row.size()));
+      if (row.size() == 0 || row.size() > kMaxMatrix) {
+        diagnostics.add(key,
+                        fmt::format("must have 1 to {} numbers, found {}", kMaxMatrix, row.size()));
         return std::nullopt;
       }
       matrix.setZero(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(row.size()));
     }
     if (static_cast<Eigen::Index>(row.size()) != matrix.cols()) {
-      complaints.add(key, fmt::format("must have {} numbers like the first row, found {}",
-                                      matrix.cols(), row.size()));
+      diagnostics.add(key, fmt::format("must have {} numbers like the first row, found {}",
+                                       matrix.cols(), row.size()));
       continue;
     }
     for (std::size_t j = 0; j < row.size(); ++j) {
@@ -74,26 +74,26 @@ std::optional<Eigen::MatrixXd> readMatrix(const MapReader& map, const SettingInf
       const std::optional<double> value =
           entry.IsScalar() ? parseQuantity(entry.Scalar(), info.unit) : std::optional<double>();
       if (!value) {
-        complaints.add(fmt::format("{}[{}]", key, j),
-                       fmt::format("must be a finite number ({}), found {}{}", info.unit,
-                                   shown(entry), objectionToUnit(entry, info.unit)));
+        diagnostics.add(fmt::format("{}[{}]", key, j),
+                        fmt::format("must be a finite number ({}), found {}{}", info.unit,
+                                    shown(entry), unitDiagnostic(entry, info.unit)));
         continue;
       }
       matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = *value;
     }
   }
-  return complaints.all().size() == before ? std::optional<Eigen::MatrixXd>(matrix) : std::nullopt;
+  return diagnostics.all().size() == before ? std::optional<Eigen::MatrixXd>(matrix) : std::nullopt;
 }
 
 std::vector<std::string> readNames(const MapReader& map, const SettingInfo& info,
-                                   Complaints& complaints) {
+                                   Diagnostics& diagnostics) {
   std::vector<std::string> names;
-  const auto entries = list(map, info.name, "names", complaints);
+  const auto entries = list(map, info.name, "names", diagnostics);
   for (std::size_t i = 0; entries && i < entries->size(); ++i) {
     const YAML::Node entry = (*entries)[i];
     if (!entry.IsScalar() || entry.Scalar().empty()) {
-      complaints.add(rowKey(map, info.name, i),
-                     fmt::format("must be a name, found {}", shown(entry)));
+      diagnostics.add(rowKey(map, info.name, i),
+                      fmt::format("must be a name, found {}", shown(entry)));
       continue;
     }
     names.push_back(entry.Scalar());
@@ -103,8 +103,8 @@ std::vector<std::string> readNames(const MapReader& map, const SettingInfo& info
 
 /// The entries of a list of maps.
 std::optional<std::vector<YAML::Node>> maps(const MapReader& map, const std::string& name,
-                                            Complaints& complaints) {
-  const auto entries = list(map, name, "maps", complaints);
+                                            Diagnostics& diagnostics) {
+  const auto entries = list(map, name, "maps", diagnostics);
   if (!entries) {
     return std::nullopt;
   }
@@ -112,7 +112,7 @@ std::optional<std::vector<YAML::Node>> maps(const MapReader& map, const std::str
 }
 
 std::vector<TableRow> readSettingTable(const MapReader& map, const SettingInfo& info,
-                                       Complaints& complaints) {
+                                       Diagnostics& diagnostics) {
   std::vector<std::string> known = info.word_columns;
   known.insert(known.end(), info.optional_words.begin(), info.optional_words.end());
   for (const ColumnInfo& column : info.columns) {
@@ -120,16 +120,16 @@ std::vector<TableRow> readSettingTable(const MapReader& map, const SettingInfo& 
   }
   std::vector<TableRow> table;
   const YAML::Node node = map.at(info.name);
-  // One row needs no list.
+  // A single row may be given without a list.
   const auto rows = node.IsMap() ? std::optional(std::vector<YAML::Node>{node})
-                                 : maps(map, info.name, complaints);
+                                 : maps(map, info.name, diagnostics);
   for (std::size_t i = 0; rows && i < rows->size(); ++i) {
     const MapReader row((*rows)[i], rowKey(map, info.name, i), known, "key of " + info.name,
-                        complaints);
+                        diagnostics);
     TableRow values;
     for (const std::string& word : info.word_columns) {
       if (row.usable() && !row.has(word)) {
-        complaints.add(row.key(word), "missing; must be a name");
+        diagnostics.add(row.key(word), "missing; must be a name");
       }
       values.words[word] = row.text(word, "");
     }
@@ -151,9 +151,10 @@ std::vector<TableRow> readSettingTable(const MapReader& map, const SettingInfo& 
   return table;
 }
 
-/// One of the words, or a whole number of 0 or more.
-std::string readWordOrCount(const MapReader& map, const SettingInfo& info, Complaints& complaints) {
-  constexpr double kLargestCount = 1.0e6;
+/// One of the words, or an integer of 0 or more.
+std::string readWordOrCount(const MapReader& map, const SettingInfo& info,
+                            Diagnostics& diagnostics) {
+  constexpr double kMaxCount = 1.0e6;
   if (!map.has(info.name)) {
     return info.choices.front();
   }
@@ -163,39 +164,39 @@ std::string readWordOrCount(const MapReader& map, const SettingInfo& info, Compl
     return text;
   }
   const std::optional<double> count = parseNumber(text);
-  if (!count || *count < 0.0 || *count > kLargestCount || *count != std::floor(*count)) {
-    complaints.add(map.key(info.name), fmt::format("must be a whole number >= 0 or {}, found {}",
-                                                   fmt::join(info.choices, ", "), shown(node)));
+  if (!count || *count < 0.0 || *count > kMaxCount || *count != std::floor(*count)) {
+    diagnostics.add(map.key(info.name), fmt::format("must be a whole number >= 0 or {}, found {}",
+                                                    fmt::join(info.choices, ", "), shown(node)));
     return info.choices.front();
   }
   return fmt::format("{:.0f}", *count);
 }
 
 void readSetting(const MapReader& map, const SettingInfo& info, Settings& settings,
-                 Complaints& complaints) {
+                 Diagnostics& diagnostics) {
   if (info.kind == SettingKind::kChoice) {
     settings.choices[info.name] =
         map.choice(info.name, info.choices, "one of its values", info.choices.front());
     return;
   }
   if (info.kind == SettingKind::kWordOrCount) {
-    settings.choices[info.name] = readWordOrCount(map, info, complaints);
+    settings.choices[info.name] = readWordOrCount(map, info, diagnostics);
     return;
   }
   if (!map.has(info.name)) {
     if (info.required && map.usable()) {
-      complaints.add(map.key(info.name), fmt::format("missing; {}", info.meaning));
+      diagnostics.add(map.key(info.name), fmt::format("missing; {}", info.meaning));
     }
     return;
   }
   if (info.kind == SettingKind::kMatrix) {
-    if (const auto matrix = readMatrix(map, info, complaints)) {
+    if (const auto matrix = readMatrix(map, info, diagnostics)) {
       settings.matrices[info.name] = *matrix;
     }
   } else if (info.kind == SettingKind::kNames) {
-    settings.names[info.name] = readNames(map, info, complaints);
+    settings.names[info.name] = readNames(map, info, diagnostics);
   } else {
-    settings.tables[info.name] = readSettingTable(map, info, complaints);
+    settings.tables[info.name] = readSettingTable(map, info, diagnostics);
   }
 }
 
@@ -206,7 +207,7 @@ MapReader readParameterValues(const MapReader& owner, const std::string& of,
                               const std::vector<SettingInfo>& settings,
                               const std::vector<std::string>& further, ParameterValues& values,
                               std::map<std::string, std::string>& following, Settings& given,
-                              Complaints& complaints) {
+                              Diagnostics& diagnostics) {
   std::vector<std::string> known;
   for (const ParameterInfo& parameter : parameters) {
     known.push_back(parameter.name);
@@ -217,7 +218,7 @@ MapReader readParameterValues(const MapReader& owner, const std::string& of,
   known.insert(known.end(), further.begin(), further.end());
   const MapReader map(
       owner.has("parameters") ? owner.at("parameters") : YAML::Node(YAML::NodeType::Map),
-      owner.key("parameters"), known, "parameter of " + of, complaints);
+      owner.key("parameters"), known, "parameter of " + of, diagnostics);
   for (const ParameterInfo& p : parameters) {
     std::optional<double> fallback = p.fallback;
     if (!p.fallback_parameter.empty()) {
@@ -229,20 +230,20 @@ MapReader readParameterValues(const MapReader& owner, const std::string& of,
     values[p.name] = map.number(p.name, p.range, p.unit, fallback);
   }
   for (const SettingInfo& setting : settings) {
-    readSetting(map, setting, given, complaints);
+    readSetting(map, setting, given, diagnostics);
   }
   return map;
 }
 
 void readParameters(const MapReader& system, const ModelInfo& model, SystemSpec& spec,
-                    Complaints& complaints) {
+                    Diagnostics& diagnostics) {
   const std::vector<std::string> further =
       model.has_shaft ? std::vector<std::string>{"speed"} : std::vector<std::string>{};
   const MapReader map =
       readParameterValues(system, model.name, model.parameters, model.settings, further,
-                          spec.parameters, spec.following, spec.settings, complaints);
+                          spec.parameters, spec.following, spec.settings, diagnostics);
   if (map.has("speed")) {
-    spec.speed = map.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
+    spec.speed = map.numberBetween("speed", -kMaxSpeed, kMaxSpeed, "rad/s", std::nullopt);
   }
 }
 

@@ -1,4 +1,4 @@
-// Reads a system's `parameters` as its model wants them, and a controller's as its law does:
+// Reads the `parameters` of a system or a controller as declared by its model or control law:
 // numbers with units and ranges, words, matrices, names and tables.
 #pragma once
 
@@ -12,18 +12,18 @@
 
 namespace whirl_twin {
 
-/// Fills spec.parameters, spec.settings and spec.speed; complains of everything that does not fit.
+/// Fills spec.parameters, spec.settings and spec.speed; adds a diagnostic for every error.
 void readParameters(const MapReader& system, const ModelInfo& model, SystemSpec& spec,
-                    Complaints& complaints);
+                    Diagnostics& diagnostics);
 
-/// The `parameters` of `owner`, whose values are `of` a model or a law by this name; `further` keys
-/// may stand among them; `following` gets those that are not given and follow another. Complains
-/// likewise.
+/// Reads the `parameters` of `owner`, whose values are `of` a model or a control law by this name;
+/// `further` keys are allowed among them; `following` receives those that are not given and follow
+/// another one. Adds a diagnostic for every error.
 MapReader readParameterValues(const MapReader& owner, const std::string& of,
                               const std::vector<ParameterInfo>& parameters,
                               const std::vector<SettingInfo>& settings,
                               const std::vector<std::string>& further, ParameterValues& values,
                               std::map<std::string, std::string>& following, Settings& given,
-                              Complaints& complaints);
+                              Diagnostics& diagnostics);
 
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@ namespace whirl_twin {
 
 namespace {
 
-/// Moves the place of a system; false: it is not among them.
+/// Renumbers a system; false if it is not among them.
 template <class OfSystem>
 bool move(OfSystem& of, const std::vector<std::size_t>& systems) {
   const auto found = std::find(systems.begin(), systems.end(), of.system);

@@ -1,4 +1,4 @@
-// A scene with some of its systems only.
+// Reduces a scene to some of its systems.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace whirl_twin {
 
-/// The systems at these places, in this order, with all drives, and with those sensors and
-/// controllers that have to do with no other system.
+/// A scene of the systems with these indices, in this order, with all drives, and with those
+/// sensors and controllers that refer to no other system.
 Scene partOf(const Scene& scene, const std::vector<std::size_t>& systems);
 
 }  // namespace whirl_twin

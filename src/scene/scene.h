@@ -1,4 +1,5 @@
-// A checked scene: what is simulated, with every number in range. Made by readScene() only.
+// A validated scene: specification of a simulation, with every number in range. Created by
+// readScene() only.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,73 +24,73 @@ namespace whirl_twin {
 
 struct SystemSetup;
 
-/// A shaft that turns, shared by the systems that name it.
+/// A rotating shaft, shared by the systems that name it.
 struct DriveSpec {
   std::string name;
   double speed = 0.0;              ///< [rad/s], at the scene's start
   double angle = 0.0;              ///< [rad], at the scene's start
-  std::vector<SpeedMove> profile;  ///< moves in order; empty: the speed stays
-  /// It turns the shaft instead: speed and angle are a state of the one system that names it.
+  std::vector<SpeedMove> profile;  ///< moves in order; empty: constant speed
+  /// A motor instead of a profile: speed and angle are a state of the one system that names it.
   std::optional<Motor> motor = std::nullopt;
-  std::vector<SpeedBand> avoid = {};  ///< that it passes and does not stay in; in no order
+  std::vector<SpeedBand> avoid = {};  ///< barred speed ranges, crossed only; unordered
 };
 
-/// How one number differs from member to member of an ensemble, about what the scene gives; or,
-/// without a count of members, how well it is known.
+/// Distribution of one number over the samples of an ensemble, about the value in the scene; or,
+/// without a count of samples, its uncertainty.
 struct Spread {
   enum class Kind { kParameter, kCoordinate, kRate };
   std::string path;  ///< `stiffness`, `bearings[0].kxx`, `initial.x`, `initial.x_rate`
   Kind kind = Kind::kParameter;
   std::size_t coordinate = 0;  ///< of an initial value
-  bool normal = false;         ///< distributed normally, else uniformly
-  double width = 0.0;          ///< standard deviation, or half the uniform's width; > 0
+  bool normal = false;         ///< normal distribution, else uniform
+  double width = 0.0;          ///< standard deviation, or half width of the uniform; > 0
 };
 
-/// A system many times over. The system itself, as the scene gives it, runs beside them.
+/// Samples of a system. The system with the values of the scene runs beside them.
 struct EnsembleSpec {
-  std::size_t count = 0;  ///< members that run; 0: no ensemble
+  std::size_t count = 0;  ///< samples simulated; 0: no ensemble
   std::uint32_t seed = 1;
   std::vector<Spread> spread;
-  /// Lower triangular, n by n: times its transpose the correlations of the spreads; empty: none
-  /// (spread_correlations.h).
+  /// Lower triangular factor L, n by n: L L^T is the correlation matrix of the spreads; empty:
+  /// uncorrelated (ensemble_draw.h).
   Eigen::MatrixXd factor = {};
 };
 
-/// A start at the equilibrium of the parameters there are.
+/// A start at the equilibrium for the present parameters.
 struct EquilibriumStart {
   double speed = 0.0;  ///< [rad/s], of the shaft
-  bool asked = false;  ///< by the scene; else by default
+  bool asked = false;  ///< required by the scene; else by default
 };
 
 struct SystemSpec {
   std::string name;
   std::string model;
-  std::optional<std::string> drive;  ///< name of the drive that turns it
-  std::size_t drive_place = 0;       ///< where Scene::driveOf() looks for it first
-  std::optional<double> speed;       ///< [rad/s], a constant speed of its own instead
+  std::optional<std::string> drive;  ///< name of its drive
+  std::size_t drive_place = 0;       ///< index where Scene::driveOf() searches first
+  std::optional<double> speed;       ///< [rad/s], a constant speed instead of a drive
   std::string integrator = "auto";
   double tolerance = 1.0e-6;  ///< [-], for auto
   double horizon = 10.0;      ///< [s], for auto
   int substeps = 1;
-  /// What `auto` stands for, as far as a calibration has found out (step_choice.h), and why.
+  /// What `auto` resolves to, as far as a calibration has determined it (step_choice.h), and why.
   std::string chosen_integrator = "";
   std::string choice_reason = "";
   std::map<std::string, double> parameters;  ///< complete: defaults filled in
-  /// Parameters that are not given and have the value of another by default: stiffness_y its
-  /// stiffness. setParameter() changes them along.
+  /// Parameters that are not given and default to the value of another one: stiffness_y to
+  /// stiffness. setParameter() changes them together.
   std::map<std::string, std::string> following;
-  Settings settings;                          ///< parameters that are not one number
+  Settings settings;                          ///< parameters other than single numbers
   std::vector<double> q;                      ///< initial coordinates, [rad] or [m]
   std::vector<double> v;                      ///< initial rates, [rad/s] or [m/s]
   std::optional<EquilibriumStart> rest;       ///< q and v are an equilibrium; else as given
-  std::map<std::string, InputSignal> inputs;  ///< what acts on it, by the names of its model
+  std::map<std::string, InputSignal> inputs;  ///< by the input names of its model
   EnsembleSpec ensemble;
-  /// What reading set up of the above, for build() to take over (system_setup.h).
+  /// Setup made by the reader from the above, reused by build() (system_setup.h).
   std::shared_ptr<const SystemSetup> setup = nullptr;
 };
 
 struct Scene {
-  std::string source;  ///< where it came from, for messages
+  std::string source;  ///< origin, for messages
   std::string name;
   std::int64_t step = 0;     ///< [ns], the fixed step
   std::int64_t time = 0;     ///< [ns], simulated time at the start
@@ -99,7 +100,7 @@ struct Scene {
   std::vector<SensorSpec> sensors;
   std::vector<ControllerSpec> controllers;
 
-  /// Place in `drives` of the one that turns the system; drives.size() if none does.
+  /// Index in `drives` of the drive of a system; drives.size() if it has none.
   std::size_t driveOf(const SystemSpec& system) const {
     if (!system.drive) {
       return drives.size();

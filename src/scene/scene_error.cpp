@@ -7,6 +7,6 @@
 namespace whirl_twin {
 
 SceneError::SceneError(std::vector<std::string> errors)
-    : Refusal(fmt::format("{}", fmt::join(errors, "\n"))), errors_(std::move(errors)) {}
+    : InputError(fmt::format("{}", fmt::join(errors, "\n"))), errors_(std::move(errors)) {}
 
 }  // namespace whirl_twin

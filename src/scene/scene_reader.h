@@ -1,5 +1,5 @@
-// Reads and checks scene files. One parser serves the command line (a YAML file) and the nodes (the
-// same file loaded into ROS parameters).
+// Reads and validates scene files. One parser serves the command line (a YAML file) and the nodes
+// (the same file loaded into ROS parameters).
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -14,7 +14,7 @@ namespace whirl_twin {
 /// The scene of a YAML file. Throws SceneError with every error found.
 Scene readSceneFile(const std::string& path);
 
-/// The scene of a YAML tree; `source` names it in messages. Throws SceneError.
+/// The scene of a YAML tree; `source` is its name in messages. Throws SceneError.
 Scene readScene(const YAML::Node& tree, const std::string& source);
 
 }  // namespace whirl_twin

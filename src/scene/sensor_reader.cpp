@@ -14,10 +14,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kLongestBlock = 10.0;  // s
-constexpr double kMostSamples = 1.0e5;  // values in a message
-constexpr double kLargestMark = 1.0e6;  // rad
-constexpr double kLargestJitter = 1.0;  // s
+constexpr double kMaxBlock = 10.0;     // s
+constexpr double kMaxSamples = 1.0e5;  // values in a message
+constexpr double kMaxMark = 1.0e6;     // rad
+constexpr double kMaxJitter = 1.0;     // s
 
 std::uint32_t readSeed(const MapReader& map) {
   return static_cast<std::uint32_t>(map.integer("seed", 0, 2147483647, 1));
@@ -25,31 +25,31 @@ std::uint32_t readSeed(const MapReader& map) {
 
 SensorChannelSpec readChannel(const YAML::Node& node, const std::string& key,
                               const std::string& name, const SignalNames& signals,
-                              Complaints& complaints) {
+                              Diagnostics& diagnostics) {
   SensorChannelSpec channel;
   channel.name = name;
   const MapReader map(node, key,
                       {"measures", "direction", "noise", "resolution", "range", "bandwidth",
                        "delay", "run_out", "run_out_angle"},
-                      "key of a sensor", complaints);
+                      "key of a sensor", diagnostics);
   if (!map.usable()) {
     return channel;
   }
   const std::string measured = map.text("measures", "");
   const std::optional<NamedSignal> found =
-      map.has("measures") ? signals.find(measured, map.key("measures"), complaints) : std::nullopt;
+      map.has("measures") ? signals.find(measured, map.key("measures"), diagnostics) : std::nullopt;
   if (!map.has("measures")) {
-    complaints.add(map.key("measures"), "missing; must be a signal such as rotor.x");
+    diagnostics.add(map.key("measures"), "missing; must be a signal such as rotor.x");
   }
   if (found) {
     channel.signal = found->signal;
     if (map.has("direction")) {
       channel.signal.direction = map.number("direction", Range::kAny, "rad", 0.0);
       if (!found->takes_direction) {
-        complaints.add(
+        diagnostics.add(
             map.key("direction"),
             fmt::format("needs a rotor or a station of one; the direction of {} is fixed",
-                        whirl_twin::quoted(measured)));
+                        whirl_twin::inQuotes(measured)));
       }
     }
   }
@@ -63,13 +63,13 @@ SensorChannelSpec readChannel(const YAML::Node& node, const std::string& key,
   channel.run_out.angle = map.number("run_out_angle", Range::kAny, "rad", 0.0);
   if (channel.run_out.amplitude > 0.0 && channel.signal.kind != SignalSpec::Kind::kDisplacement &&
       found) {
-    complaints.add(map.key("run_out"), "needs a displacement probe on a rotor");
+    diagnostics.add(map.key("run_out"), "needs a displacement probe on a rotor");
   }
   return channel;
 }
 
 void readKeyphasor(const MapReader& map, const Scene& scene, SensorSpec& sensor,
-                   Complaints& complaints) {
+                   Diagnostics& diagnostics) {
   std::vector<std::string> drives;
   for (const DriveSpec& drive : scene.drives) {
     drives.push_back(drive.name);
@@ -78,64 +78,64 @@ void readKeyphasor(const MapReader& map, const Scene& scene, SensorSpec& sensor,
   const auto found = std::find(drives.begin(), drives.end(), name);
   sensor.drive = static_cast<std::size_t>(found - drives.begin());
   KeyphasorSettings settings;
-  settings.mark = map.numberBetween("mark", -kLargestMark, kLargestMark, "rad", 0.0);
-  settings.jitter = map.numberBetween("jitter", 0.0, kLargestJitter, "s", 0.0);
+  settings.mark = map.numberBetween("mark", -kMaxMark, kMaxMark, "rad", 0.0);
+  settings.jitter = map.numberBetween("jitter", 0.0, kMaxJitter, "s", 0.0);
   settings.resolution = map.numberBetween("resolution", 0.0, 1.0, "s", 0.0);
   sensor.keyphasor = settings;
   for (const char* key : {"rate", "channels"}) {
     if (map.has(key)) {
-      complaints.add(map.key(key),
-                     "must not be given with a keyphasor, which sends one pulse per revolution");
+      diagnostics.add(map.key(key),
+                      "must not be given with a keyphasor, which sends one pulse per revolution");
     }
   }
 }
 
 SensorSpec readSource(const YAML::Node& node, const std::string& key, const std::string& name,
-                      const Scene& scene, const SignalNames& signals, Complaints& complaints) {
+                      const Scene& scene, const SignalNames& signals, Diagnostics& diagnostics) {
   SensorSpec sensor;
   sensor.name = name;
   const MapReader map(
       node, key, {"rate", "seed", "block", "channels", "keyphasor", "mark", "jitter", "resolution"},
-      "key of sensors", complaints);
+      "key of sensors", diagnostics);
   if (!map.usable()) {
     return sensor;
   }
   sensor.seed = readSeed(map);
-  sensor.block = map.numberBetween("block", 1.0e-6, kLongestBlock, "s", sensor.block);
+  sensor.block = map.numberBetween("block", 1.0e-6, kMaxBlock, "s", sensor.block);
   if (map.has("keyphasor")) {
-    readKeyphasor(map, scene, sensor, complaints);
+    readKeyphasor(map, scene, sensor, diagnostics);
     return sensor;
   }
   for (const char* alone : {"mark", "jitter", "resolution"}) {
     if (map.has(alone)) {
-      complaints.add(map.key(alone), "needs a keyphasor");
+      diagnostics.add(map.key(alone), "needs a keyphasor");
     }
   }
   sensor.rate = map.numberBetween("rate", 1.0e-3, kMaxSampleRate, "Hz", std::nullopt);
   if (!map.has("channels")) {
-    complaints.add(map.key("channels"), "missing; sensors need at least one channel");
+    diagnostics.add(map.key("channels"), "missing; sensors need at least one channel");
     return sensor;
   }
-  const MapReader channels(map.at("channels"), map.key("channels"), {}, "", complaints);
+  const MapReader channels(map.at("channels"), map.key("channels"), {}, "", diagnostics);
   for (const std::string& channel : channels.names()) {
     if (!isLegalName(channel)) {
-      complaints.add(
+      diagnostics.add(
           channels.key(channel),
           fmt::format("the name of a channel must have at most {} letters, digits and _, a letter "
                       "first",
                       kMaxNameLength));
     }
     sensor.channels.push_back(
-        readChannel(channels.at(channel), channels.key(channel), channel, signals, complaints));
+        readChannel(channels.at(channel), channels.key(channel), channel, signals, diagnostics));
   }
   if (channels.usable() && sensor.channels.empty()) {
-    complaints.add(map.key("channels"), "sensors need at least one channel, found none");
+    diagnostics.add(map.key("channels"), "sensors need at least one channel, found none");
   }
   const double samples = sensor.rate * sensor.block * static_cast<double>(sensor.channels.size());
-  if (samples > kMostSamples) {
-    complaints.add(map.key("block"),
-                   fmt::format("must give at most {:g} values per message, found {:g}",
-                               kMostSamples, samples));
+  if (samples > kMaxSamples) {
+    diagnostics.add(
+        map.key("block"),
+        fmt::format("must give at most {:g} values per message, found {:g}", kMaxSamples, samples));
   }
   return sensor;
 }
@@ -143,23 +143,24 @@ SensorSpec readSource(const YAML::Node& node, const std::string& key, const std:
 }  // namespace
 
 std::vector<SensorSpec> readSensors(const YAML::Node& node, const std::string& key,
-                                    const Scene& scene, Complaints& complaints) {
+                                    const Scene& scene, Diagnostics& diagnostics) {
   std::vector<SensorSpec> sensors;
-  const MapReader map(node, key, {}, "", complaints);
+  const MapReader map(node, key, {}, "", diagnostics);
   const SignalNames signals(scene);
-  std::set<std::string> channels;  // of LCM
+  std::set<std::string> channels;  // names of LCM channels
   for (const std::string& name : map.names()) {
     if (!isLegalName(name)) {
-      complaints.add(
+      diagnostics.add(
           map.key(name),
           fmt::format("the name of sensors must have at most {} letters, digits and _, a letter "
                       "first",
                       kMaxNameLength));
     } else if (!channels.insert(capitals(name)).second) {
-      complaints.add(map.key(name),
-                     "duplicate: other sensors have this name (upper and lower case are the same)");
+      diagnostics.add(
+          map.key(name),
+          "duplicate: other sensors have this name (upper and lower case are the same)");
     }
-    sensors.push_back(readSource(map.at(name), map.key(name), name, scene, signals, complaints));
+    sensors.push_back(readSource(map.at(name), map.key(name), name, scene, signals, diagnostics));
   }
   return sensors;
 }

@@ -19,9 +19,9 @@
 
 namespace whirl_twin {
 
-/// The sensors under `key`, of a scene whose drives and systems have been read. Complains of
-/// everything that does not fit.
+/// Reads the sensors under `key`, of a scene whose drives and systems have been read. Adds a
+/// diagnostic for every error.
 std::vector<SensorSpec> readSensors(const YAML::Node& node, const std::string& key,
-                                    const Scene& scene, Complaints& complaints);
+                                    const Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace whirl_twin

@@ -1,4 +1,4 @@
-// The sensors of a scene: what is measured of its systems and shafts, and how badly.
+// Specification of the sensors of a scene: signals and errors.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 
 namespace whirl_twin {
 
-/// Largest rate of a sensor or a controller accepted [Hz].
+/// Largest rate of a sensor or a controller [Hz].
 inline constexpr double kMaxSampleRate = 1.0e7;
 
-/// Longest delay of a sensor or a controller accepted [s].
+/// Longest delay of a sensor or a controller [s].
 inline constexpr double kMaxSignalDelay = 1.0e3;
 
-/// What a sensor is at: a coordinate or its rate, or a rotor's displacement at a station along a
-/// direction across the shaft.
+/// The signal of a sensor: a coordinate or its rate, or the displacement of a rotor at a station in
+/// a direction across the shaft.
 struct SignalSpec {
   enum class Kind { kCoordinate, kRate, kDisplacement };
   Kind kind = Kind::kCoordinate;
@@ -30,10 +30,10 @@ struct SignalSpec {
   std::string unit;            ///< "m", "rad", "m/s" or "rad/s"
 };
 
-/// A surface that is not round turns under a probe: amplitude cos(shaft angle + angle - direction).
+/// Run-out of the surface under a probe: amplitude cos(shaft angle + angle - direction).
 struct RunOut {
   double amplitude = 0.0;  ///< [m]
-  double angle = 0.0;      ///< [rad], of the high spot from the shaft's mark
+  double angle = 0.0;      ///< [rad], from the phase reference of the shaft to the high spot
 };
 
 struct SensorChannelSpec {
@@ -43,15 +43,15 @@ struct SensorChannelSpec {
   RunOut run_out;
 };
 
-/// Sensors that are sampled together, or one keyphasor: a stream of measurements by this name.
+/// Sensors that are sampled together, or one keyphasor: a stream of measurements of this name.
 struct SensorSpec {
   std::string name;
   double rate = 0.0;       ///< [Hz]; sample k at k / rate after simulated time 0, to a nanosecond
   std::uint32_t seed = 1;  ///< of the noise
-  double block = 0.1;      ///< [s], of samples in a message
+  double block = 0.1;      ///< [s], length of the samples in a message
   std::vector<SensorChannelSpec> channels;
   std::optional<KeyphasorSettings> keyphasor = std::nullopt;
-  std::size_t drive = 0;  ///< of a keyphasor: of Scene::drives
+  std::size_t drive = 0;  ///< of a keyphasor: index in Scene::drives
 };
 
 }  // namespace whirl_twin

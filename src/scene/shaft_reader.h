@@ -1,4 +1,4 @@
-// Reads what turns a system's shaft: a drive of the scene, or a constant speed of its own.
+// Reads the shaft speed of a system: a drive of the scene, or a constant speed.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,19 @@
 
 namespace whirl_twin {
 
-/// The places of the drives in a scene, by name.
+/// Indices of the drives in a scene, by name.
 using DrivePlaces = std::unordered_map<std::string, std::size_t>;
 
-/// Fills spec.drive and its place; complains where the model, the drive and the speed do not go
-/// together.
+/// Fills spec.drive and its index; adds a diagnostic if model, drive and speed are inconsistent.
 void readShaft(const MapReader& system, const ModelInfo& model, const Scene& scene,
-               const DrivePlaces& places, SystemSpec& spec, Complaints& complaints);
+               const DrivePlaces& places, SystemSpec& spec, Diagnostics& diagnostics);
 
-/// A spin that a motor turns starts as its drive does: fills the last of spec.q and spec.v.
+/// The initial spin of a system on a motor is that of its drive: fills the last of spec.q and
+/// spec.v.
 void startSpin(const MapReader& initial, const Scene& scene, SystemSpec& spec,
-               Complaints& complaints);
+               Diagnostics& diagnostics);
 
-/// A motor's shaft is a state of one system: complains of any other number.
-void checkMotors(const Scene& scene, Complaints& complaints);
+/// A motor's shaft is a state of one system: adds a diagnostic unless exactly one names it.
+void checkMotors(const Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace whirl_twin

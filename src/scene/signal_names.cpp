@@ -39,7 +39,7 @@ std::string capitals(std::string text) {
 SignalNames::SignalNames(const Scene& scene) {
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     if (!scene.systems[i].setup) {
-      continue;  // it was refused
+      continue;  // rejected before
     }
     const Dynamics& dynamics = *scene.systems[i].setup->made.dynamics;
     const std::string& system = scene.systems[i].name;
@@ -84,7 +84,7 @@ void SignalNames::addDisplacements(const std::string& prefix, SignalSpec at) {
 }
 
 std::optional<NamedSignal> SignalNames::find(const std::string& name, const std::string& key,
-                                             Complaints& complaints) const {
+                                             Diagnostics& diagnostics) const {
   std::vector<std::string> names;
   for (const NamedSignal& known : all_) {
     if (known.name == name) {
@@ -93,10 +93,12 @@ std::optional<NamedSignal> SignalNames::find(const std::string& name, const std:
     names.push_back(known.name);
   }
   const std::string near = nearestName(name, names);
-  complaints.add(key,
-                 fmt::format("must be a coordinate, a rate or a station of a system, found {}{}",
-                             whirl_twin::quoted(name),
-                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  diagnostics.add(
+      key,
+      fmt::format("must be SYSTEM.COORDINATE, SYSTEM.COORDINATE_rate, SYSTEM or SYSTEM.STATION (a "
+                  "displacement, also with .x or .y), found {}{}",
+                  whirl_twin::inQuotes(name),
+                  near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
   return std::nullopt;
 }
 

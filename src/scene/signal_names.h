@@ -1,6 +1,5 @@
-// Everything in a scene that can be measured, by the names that sensors and controllers use:
-// SYSTEM.COORDINATE, SYSTEM.COORDINATE_rate, SYSTEM.STATION.x, and SYSTEM or SYSTEM.STATION where a
-// direction goes with it.
+// Names of the measurable signals of a scene, for sensors and controllers: SYSTEM.COORDINATE,
+// SYSTEM.COORDINATE_rate, SYSTEM.STATION.x, and SYSTEM or SYSTEM.STATION together with a direction.
 #pragma once
 
 #include <optional>
@@ -14,16 +13,17 @@
 
 namespace whirl_twin {
 
-// Under which names a rotor's whirl is published: the system's own for the station published first,
-// SYSTEM_STATION for every further one. Topics and channels follow from them as from a system's.
+// Names under which a rotor's whirl is published: that of the system for the station published
+// first, SYSTEM_STATION for every further one. Topics and channels are derived from them as from a
+// system's name.
 
 /// "rotor_node_3"
 std::string stationName(const std::string& system, const Station& station);
 
-/// All names of a system, its own first; of what is no rotor only that.
+/// All names of a system, that of the system first; for a system that is not a rotor only that.
 std::vector<std::string> publishedStations(const std::string& system, const Dynamics& dynamics);
 
-/// With a to z in capitals, as in the names of LCM channels.
+/// Converts a to z to capitals, as in the names of LCM channels.
 std::string capitals(std::string text);
 
 struct NamedSignal {
@@ -34,12 +34,12 @@ struct NamedSignal {
 
 class SignalNames {
  public:
-  /// Of a scene whose systems have been read.
+  /// For a scene whose systems have been read.
   explicit SignalNames(const Scene& scene);
 
-  /// The signal of that name; nothing, with a complaint at `key`, if there is none.
+  /// The signal of that name; nothing, with a diagnostic at `key`, if there is none.
   std::optional<NamedSignal> find(const std::string& name, const std::string& key,
-                                  Complaints& complaints) const;
+                                  Diagnostics& diagnostics) const;
 
  private:
   void add(const std::string& name, const SignalSpec& signal, bool takes_direction = false);

@@ -9,7 +9,7 @@ namespace whirl_twin {
 
 namespace {
 
-// Structured bindings name every member: one that is added later does not go uncompared.
+// Structured bindings list every field: the compiler reports a later addition.
 
 bool same(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && a == b;
@@ -49,7 +49,7 @@ bool same(const Motor& a, const Motor& b) {
          count == b.count && extended == b.extended && drag == b.drag;
 }
 
-bool same(const Surroundings& a, const Surroundings& b) {
+bool same(const ModelContext& a, const ModelContext& b) {
   const auto& [gravity, motor] = a;
   return gravity == b.gravity && motor.has_value() == b.motor.has_value() &&
          (!motor || same(*motor, *b.motor));
@@ -58,13 +58,13 @@ bool same(const Surroundings& a, const Surroundings& b) {
 }  // namespace
 
 std::shared_ptr<const SystemSetup> setUp(const ModelInfo& model, const SystemSpec& spec,
-                                         const Surroundings& around) {
+                                         const ModelContext& around) {
   return std::make_shared<const SystemSetup>(
       SystemSetup{&model, spec.parameters, spec.settings, around,
                   model.setUp(spec.parameters, spec.settings, around)});
 }
 
-const SystemSetup& setupOf(SystemSpec& spec, const Surroundings& around) {
+const SystemSetup& setupOf(SystemSpec& spec, const ModelContext& around) {
   const SystemSetup* const known = spec.setup.get();
   if (known == nullptr || known->model->name != spec.model ||
       known->parameters != spec.parameters || !same(known->settings, spec.settings) ||

@@ -1,9 +1,9 @@
-// The model of a system set up, and what it was set up from.
+// The set-up model of a system, with the values it was set up from.
 //
-// To set a model up may take long (a flexible rotor is assembled and reduced), so it is done once:
-// readScene() leaves the result in the spec, and whoever builds the system takes it from there. A
-// spec that was changed since, as tests and tools do, still builds what it says: the setup is
-// compared with everything a setup depends on, and made anew where that differs.
+// Setting up a model may take long (a flexible rotor is assembled and reduced), so it is done once:
+// readScene() stores the result in the spec, from which the system is built. A spec that was
+// changed since, as by tests and tools, is still built correctly: the stored values are compared
+// with everything a setup depends on, and the setup is repeated if they differ.
 #pragma once
 
 #include <memory>
@@ -14,22 +14,22 @@
 namespace whirl_twin {
 
 struct SystemSetup {
-  // From
+  // Inputs of setUp
   const ModelInfo* model = nullptr;
   ParameterValues parameters;
   Settings settings;
-  Surroundings around{0.0};
-  // came
+  ModelContext around{0.0};
+  // and its result.
   ModelSetup made;
 };
 
-/// Runs the model's setUp. Throws what that throws: SetupError, or other exceptions for numbers
-/// that no arithmetic can do with.
+/// Runs the model's setUp. Throws what that throws: SetupError, or other exceptions for numerically
+/// unusable values.
 std::shared_ptr<const SystemSetup> setUp(const ModelInfo& model, const SystemSpec& spec,
-                                         const Surroundings& around);
+                                         const ModelContext& around);
 
-/// The setup that the spec carries if that is of what it says now; else a new one, which it
-/// carries from now on. Throws std::logic_error where there is no such model, and as setUp().
-const SystemSetup& setupOf(SystemSpec& spec, const Surroundings& around);
+/// The setup stored in the spec if it is up to date; else a new one, which is stored. Throws
+/// std::logic_error for an unknown model, and as setUp().
+const SystemSetup& setupOf(SystemSpec& spec, const ModelContext& around);
 
 }  // namespace whirl_twin

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -20,10 +20,10 @@ namespace {
 
 constexpr std::uintmax_t kMaxYamlSize = 4u << 20;  // bytes; a scene of ten thousand systems is less
 constexpr std::size_t kMaxDepth = 64;
-constexpr std::size_t kMaxNodes = 1'000'000;  // as they are written
-constexpr std::size_t kMaxAliased = 100'000;  // more of them, where each alias is a copy
+constexpr std::size_t kMaxNodes = 1'000'000;  // without aliases
+constexpr std::size_t kMaxAliased = 100'000;  // in addition, copied by aliases
 
-/// Counts what a text becomes, before any of it is made.
+/// Counts the nodes of a text before the tree is built.
 class YamlBounds : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override {}
@@ -76,9 +76,9 @@ class YamlBounds : public YAML::EventHandler {
     sizes_[anchor] = count_ - before;
   }
 
-  std::map<YAML::anchor_t, std::size_t> sizes_;  // of what is complete; 0: without a name
+  std::map<YAML::anchor_t, std::size_t> sizes_;  // of completed nodes; 0: no anchor
   std::vector<std::pair<YAML::anchor_t, std::size_t>> open_;
-  std::size_t count_ = 0;  // with aliases
+  std::size_t count_ = 0;  // including aliases
   std::size_t aliased_ = 0;
 };
 
@@ -86,35 +86,35 @@ class YamlBounds : public YAML::EventHandler {
 
 YAML::Node readYamlFile(const std::string& path, const std::string& what,
                         const std::string& contents) {
-  const auto refusal = [&](const std::string& why) {
-    return Refusal(fmt::format("{}: {}", path, why));
+  const auto inputError = [&](const std::string& why) {
+    return InputError(fmt::format("{}: {}", path, why));
   };
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    throw refusal("no such file");
+    throw inputError("no such file");
   }
-  // A device has no end, and a pipe waits for somebody to write.
+  // Reading a device might not end, and a pipe would block until it is written.
   if (!std::filesystem::is_regular_file(path, error)) {
-    throw refusal("not a file");
+    throw inputError("not a file");
   }
   if (std::filesystem::file_size(path, error) > kMaxYamlSize) {
-    throw refusal(fmt::format("larger than 4 MiB, the limit of {}", what));
+    throw inputError(fmt::format("larger than 4 MiB, the limit of {}", what));
   }
   std::ifstream file(path, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file.good() && !file.eof()) {
-    throw refusal("cannot be read");
+    throw inputError("cannot be read");
   }
   return readYamlText(text, path, what, contents);
 }
 
 YAML::Node readYamlText(const std::string& text, const std::string& source, const std::string& what,
                         const std::string& contents) {
-  const auto refusal = [&](const std::string& why) {
-    return Refusal(fmt::format("{}: {}", source, why));
+  const auto inputError = [&](const std::string& why) {
+    return InputError(fmt::format("{}: {}", source, why));
   };
   if (text.find('\0') != std::string::npos) {
-    throw refusal(fmt::format("a binary file, not {} in YAML", what));
+    throw inputError(fmt::format("a binary file, not {} in YAML", what));
   }
   YAML::Node tree;
   try {
@@ -124,12 +124,12 @@ YAML::Node readYamlText(const std::string& text, const std::string& source, cons
     tree = YAML::Load(text);
   } catch (const YAML::Exception& e) {
     const std::string why = printable(e.msg);
-    throw refusal(e.mark.is_null() ? fmt::format("not YAML: {}", why)
-                                   : fmt::format("line {}, column {}: not YAML: {}",
-                                                 e.mark.line + 1, e.mark.column + 1, why));
+    throw inputError(e.mark.is_null() ? fmt::format("not YAML: {}", why)
+                                      : fmt::format("line {}, column {}: not YAML: {}",
+                                                    e.mark.line + 1, e.mark.column + 1, why));
   }
   if (!tree.IsDefined() || tree.IsNull()) {
-    throw refusal(fmt::format("empty: {} has {}", what, contents));
+    throw inputError(fmt::format("empty: {} has {}", what, contents));
   }
   return tree;
 }

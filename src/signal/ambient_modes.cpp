@@ -12,33 +12,28 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kAmbientBlockTurns = 100.0;
-constexpr double kFewestTurns = 20.0;            // of a block that is cut short
+constexpr double kMinTurns = 20.0;               // of a block that is cut short
 constexpr double kAmbientSpeedTolerance = 0.01;  // of the speed
-constexpr int kMostOrders = 10;
+constexpr int kMaxOrders = 10;
 constexpr std::int64_t kMinCovarianceSamples = 200;
 
-constexpr int kLargestHankel = 60;  // rows: blocks times stations
-constexpr int kMostBlockRows = 30;
-constexpr int kFewestBlockRows = 8;
+constexpr int kMaxHankel = 60;  // rows: blocks times stations
+constexpr int kMaxBlockRows = 30;
+constexpr int kMinBlockRows = 8;
 constexpr int kFirstFilteredLag = 3;  // by then what the filter makes of white noise has ended
 
 constexpr int kLowestOrder = 2;
-constexpr int kHighestOrder = 24;
+constexpr int kMaxOrder = 24;
 constexpr std::size_t kStableOrders = 4;  // in a row
-constexpr double kLargestRatio = 0.35;    // damping ratio; what decays faster is noise
-constexpr double kLeastPower = 0.005;     // of the strongest
+constexpr double kMaxRatio = 0.35;        // damping ratio; what decays faster is noise
+constexpr double kMinPower = 0.005;       // of the strongest
 constexpr double kSameFrequency = 0.02;   // of it
 constexpr double kSameShape = 0.9;        // modal assurance criterion
-constexpr double kMostUncertain = 0.02;   // deviation of a frequency, of it
-constexpr double kNearOrder = 1.5;        // of the width of what is taken away
+constexpr double kMaxUncertain = 0.02;    // deviation of a frequency, of it
+constexpr double kNearOrder = 1.5;        // of the width of the subtracted component
 
 int blockRows(Eigen::Index stations) {
-  return std::clamp(kLargestHankel / static_cast<int>(stations), kFewestBlockRows, kMostBlockRows);
-}
-
-/// How far two shapes are one, 0 to 1 (R. J. Allemang, D. L. Brown, IMAC 1982).
-double assurance(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
-  return std::norm(a.dot(b)) / (a.squaredNorm() * b.squaredNorm());
+  return std::clamp(kMaxHankel / static_cast<int>(stations), kMinBlockRows, kMaxBlockRows);
 }
 
 /// A mode as the orders see it that have found it, one after the other.
@@ -60,7 +55,7 @@ const IdentifiedMode* same(const IdentifiedMode& as, const std::vector<Identifie
   for (const IdentifiedMode& mode : modes) {
     const double away = std::hypot(mode.frequency - as.frequency, mode.decay_rate - as.decay_rate) /
                         std::max(kSameFrequency * std::fabs(as.frequency), 0.7 * as.decay_rate);
-    if (away < least && assurance(as.shape, mode.shape) > kSameShape) {
+    if (away < least && modalAssurance(as.shape, mode.shape) > kSameShape) {
       nearest = &mode;
       least = away;
     }
@@ -71,14 +66,14 @@ const IdentifiedMode* same(const IdentifiedMode& as, const std::vector<Identifie
 /// Chains of modes that do not depend on the order.
 std::vector<Chain> stableChains(const SubspaceIdentification& record, double limit) {
   std::vector<Chain> growing, stable;
-  for (int order = kLowestOrder; order <= kHighestOrder; order += 2) {
+  for (int order = kLowestOrder; order <= kMaxOrder; order += 2) {
     std::vector<IdentifiedMode> modes = record.modes(order);
     const double strongest = modes.empty() ? 0.0 : modes.front().power;
     modes.erase(std::remove_if(modes.begin(), modes.end(),
                                [&](const IdentifiedMode& mode) {
                                  const double f = std::fabs(mode.frequency);
-                                 return f > limit || mode.power < kLeastPower * strongest ||
-                                        std::fabs(mode.decay_rate) > kLargestRatio * f;
+                                 return f > limit || mode.power < kMinPower * strongest ||
+                                        std::fabs(mode.decay_rate) > kMaxRatio * f;
                                }),
                 modes.end());
     std::vector<Chain> next;
@@ -137,13 +132,17 @@ double studentsInterval(std::size_t parts) {
 
 }  // namespace
 
+double modalAssurance(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
+  return std::norm(a.dot(b)) / (a.squaredNorm() * b.squaredNorm());
+}
+
 AmbientModes::AmbientModes(Eigen::Index stations, double period, double speed, double limit)
     : stations_(stations),
       period_(period),
       speed_(speed),
       limit_(limit),
       orders_(static_cast<int>(
-          std::clamp(1.5 * limit / std::fabs(speed), 2.0, static_cast<double>(kMostOrders)))),
+          std::clamp(1.5 * limit / std::fabs(speed), 2.0, static_cast<double>(kMaxOrders)))),
       decimator_(period, limit),
       covariance_(stations, decimator_.filters() ? kFirstFilteredLag : 1,
                   2 * blockRows(stations) - 1),
@@ -179,7 +178,7 @@ void AmbientModes::take(const StationSample& sample) {
 
 /// The orders of a block go; whole: the next sample follows.
 void AmbientModes::endBlock(bool whole) {
-  const bool used = turnsInBlock() >= kFewestTurns && takeBlock();
+  const bool used = turnsInBlock() >= kMinTurns && takeBlock();
   const std::int64_t last = block_.back().index;
   block_.clear();
   if (!used || !whole) {
@@ -191,7 +190,7 @@ void AmbientModes::endBlock(bool whole) {
   }
 }
 
-/// False where the samples cannot tell the orders.
+/// False where the samples do not determine the orders.
 bool AmbientModes::takeBlock() {
   const auto n = static_cast<Eigen::Index>(block_.size());
   Eigen::ArrayXd tau(n), angle(n);
@@ -266,7 +265,8 @@ std::vector<AmbientMode> AmbientModes::identified() const {
     others.push_back(identification(part));
   }
   for (const Chain& chain : chains) {
-    // Low orders scatter less, high ones tell neighbours apart: the one that scatters least.
+    // Low orders scatter less, high ones separate neighbouring modes: the one with the smallest
+    // scatter.
     std::optional<Scatter> least;
     std::size_t best = 0;
     for (const std::size_t link :
@@ -296,7 +296,7 @@ std::vector<AmbientMode> AmbientModes::identified() const {
         std::fabs(k - std::round(k)) < kNearOrder / shortest_block_) {
       mode.order = static_cast<int>(std::round(k));
     }
-    const bool sure = mode.frequency_deviation < kMostUncertain * std::fabs(mode.frequency);
+    const bool sure = mode.frequency_deviation < kMaxUncertain * std::fabs(mode.frequency);
     const bool grows_surely = mode.decay_rate < -3.0 * mode.decay_deviation;
     if (sure && (mode.decay_rate > 0.0 || grows_surely)) {
       modes.push_back(std::move(mode));

@@ -12,23 +12,23 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kOrders = 4;  // taken away
+constexpr int kOrders = 4;  // subtracted
 constexpr double kAuditBlockTurns = 40.0;
-constexpr double kShortestStep = 1.0e-9;       // s; stamps may say anything
-constexpr std::size_t kMostBlocks = 256;       // of which the size is known
+constexpr double kShortestStep = 1.0e-9;       // s; time stamps may be invalid
+constexpr std::size_t kMaxBlocks = 256;        // of which the size is known
 constexpr double kAuditSpeedTolerance = 0.01;  // of the speed
 constexpr int kParts = 8;                      // of a record, left out one by one
 constexpr int kLags = 23;
 constexpr int kModes = 4;              // two of the rotor, two of what is not white
 constexpr double kLagsPerCycle = 6.0;  // of the strongest line
 constexpr double kSameMode = 0.15;     // of the frequency
-constexpr double kLeastPart = 0.1;     // of the power of the strongest mode, to be one
-/// Of the motion, below which what is left is rounding and change of the orders.
-constexpr double kLeastVibration = 1.0e-5;
+constexpr double kMinPart = 0.1;       // of the power of the strongest mode, to be one
+/// Of the motion; below, the residual is rounding and change of the orders.
+constexpr double kMinVibration = 1.0e-5;
 constexpr std::size_t kSpectrumSamples = 8192;
 
 /// Sums of z(t + k lag) conj z(t) over t in [from, to), for k = 1 ... kLags: the same t for all, so
-/// that a motion that grows or dies is told as such.
+/// that growth and decay of a motion are identified as such.
 std::vector<std::complex<double>> covariances(const std::vector<std::complex<double>>& z,
                                               std::size_t from, std::size_t to, std::size_t lag) {
   std::vector<std::complex<double>> sums(kLags);
@@ -48,7 +48,7 @@ std::optional<IdentifiedMode> slowestMode(const std::vector<std::complex<double>
   const std::vector<IdentifiedMode> modes = identifyModes(covariance, spacing, kModes);
   std::optional<IdentifiedMode> slowest;
   for (const IdentifiedMode& mode : modes) {
-    const bool part = mode.power > kLeastPart * modes.front().power;
+    const bool part = mode.power > kMinPart * modes.front().power;
     const bool about = !near || std::fabs(mode.frequency - *near) < kSameMode * std::fabs(*near);
     if (part && about && (!slowest || mode.decay_rate < slowest->decay_rate)) {
       slowest = mode;
@@ -127,7 +127,7 @@ void DecayAudit::removeOrders() {
     clear();
     return;
   }
-  if (sizes_.size() == kMostBlocks) {
+  if (sizes_.size() == kMaxBlocks) {
     sizes_.erase(sizes_.begin());
   }
   sizes_.push_back(((x - x.mean()).square() + (y - y.mean()).square()).mean());
@@ -145,7 +145,7 @@ std::optional<AuditedDecay> DecayAudit::told() const {
     power += std::norm(z) / static_cast<double>(rest_.size());
   }
   const double motion = *std::max_element(sizes_.begin(), sizes_.end());
-  if (!(power > kLeastVibration * kLeastVibration * motion)) {
+  if (!(power > kMinVibration * kMinVibration * motion)) {
     return std::nullopt;
   }
   const std::size_t samples = std::min(rest_.size(), kSpectrumSamples);

@@ -1,7 +1,7 @@
-// How fast the free vibration of a running rotor that lasts longest decays, from its motion alone:
-// what turns with the shaft is taken away, and the rest, which ambient noise excites, is identified
-// (subspace_identification.h). Slow: a decay rate s is known to sqrt(s/T) after a time T at best,
-// to a fifth after 25/s, so that it audits a model and is no alarm that has to be fast.
+// Decay rate of the least damped free vibration of a running rotor, from its motion alone: the
+// synchronous components are subtracted, and the residual, excited by ambient noise, is identified
+// (subspace_identification.h). Slow: the standard deviation of a decay rate s is sqrt(s/T) after a
+// time T at best, a fifth of s after 25/s: suitable for the audit of a model, not as a fast alarm.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,17 +21,17 @@ struct AuditedDecay {
   /// Standard deviation of the decay rate [1/s], from parts of the record left out one by one, and
   /// not below what theory allows.
   double deviation = 0.0;
-  double vibration = 0.0;  ///< [m], root mean square of what it was told from, in one direction
+  double vibration = 0.0;  ///< [m], root mean square of the identified residual, in one direction
 };
 
 class DecayAudit {
  public:
-  /// Of records `window` [s] long, told every quarter of it.
+  /// Of records `window` [s] long, with a result every quarter of it.
   explicit DecayAudit(double window) : window_(window) {}
 
-  /// Takes the next sample; the result of a record that it completes. None where the speed has
-  /// changed by more than 1 % in it, where samples are missing, where the motion turns with the
-  /// shaft and nothing else is there, or where no mode is found.
+  /// Adds the next sample; returns the result of a record that it completes. None where the speed
+  /// has changed by more than 1 % in the record, where samples are missing, where the motion is
+  /// purely synchronous, or where no mode is found.
   std::optional<AuditedDecay> take(const OrbitSample& sample);
   void clear();
 

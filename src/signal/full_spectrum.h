@@ -1,5 +1,6 @@
-// The full spectrum: what of a motion z = x + i y goes round forwards and what backwards, by
-// frequency. A complex Fourier transform keeps the sign that a spectrum of one probe loses.
+// Full spectrum: forward and backward components of a motion z = x + i y over frequency. A complex
+// Fourier transform retains the sense of rotation, which the spectrum of one probe does not
+// contain.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,19 +14,22 @@ namespace whirl_twin {
 class FullSpectrum {
  public:
   /// Of samples `period` [s] apart, weighted by a Hann window: a circle of radius r is a line of
-  /// height r. A mean or trend is the caller's to take away.
+  /// height r. The caller removes a mean or trend.
   FullSpectrum(const Eigen::ArrayXcd& z, double period);
 
   std::size_t size() const { return line_.size(); }
   /// [rad/s], rising from -pi/period; positive: from x towards y.
   double frequency(std::size_t bin) const;
   double amplitude(std::size_t bin) const { return line_[bin]; }  ///< [m]
-  double resolution() const { return resolution_; }  ///< [rad/s], between lines that are told apart
+  double resolution() const {
+    return resolution_;
+  }  ///< [rad/s], smallest distance of separable
+     ///< lines
 
   struct Peak {
     double frequency = 0.0;  ///< [rad/s], between the bins
     double amplitude = 0.0;  ///< [m]
-    /// Its power beside the mean of all bins; below 12 it is likely to be noise.
+    /// Its power relative to the mean of all bins; below 12 it is likely to be noise.
     double prominence = 0.0;
   };
   /// The highest peak among the frequencies that pass.

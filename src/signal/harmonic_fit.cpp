@@ -10,8 +10,8 @@ namespace whirl_twin {
 
 namespace {
 
-/// Of the pivots of the normal equations, which stand for the squared conditioning.
-constexpr double kSmallestPivot = 1.0e-13;
+/// Of the pivots of the normal equations, a measure of the squared condition number.
+constexpr double kMinPivot = 1.0e-13;
 
 /// Of the last terms of a polynomial, what those after them may add up to at the middle.
 constexpr double kTruncation = 0.3;
@@ -77,7 +77,7 @@ bool HarmonicFit::solve(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
   squared.selfadjointView<Eigen::Lower>().rankUpdate(a.transpose());
   normal_ = Ldlt(squared);
   const Eigen::VectorXd pivots = normal_.pivots();
-  if (!normal_.succeeded() || !(pivots.minCoeff() > kSmallestPivot * pivots.maxCoeff())) {
+  if (!normal_.succeeded() || !(pivots.minCoeff() > kMinPivot * pivots.maxCoeff())) {
     return false;
   }
   Eigen::MatrixX2d measured(x.size(), 2);
@@ -85,7 +85,7 @@ bool HarmonicFit::solve(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
   measured.col(1) = y.matrix();
   coefficients_ = normal_.solve(a.transpose() * measured);
   Eigen::MatrixX2d rest = measured - a * coefficients_;
-  // Once more on what is left: the normal equations lose digits that the samples have.
+  // Second pass on the residual (iterative refinement): the normal equations lose digits.
   coefficients_ += normal_.solve(a.transpose() * rest);
   rest = measured - a * coefficients_;
   rest_.resize(x.size());

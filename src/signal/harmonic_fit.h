@@ -3,10 +3,10 @@
 //   x(t) = sum over harmonics, p: (c_p cos(phase(t)) + s_p sin(phase(t))) L_p(tau)
 //
 // and y likewise, with the Legendre polynomials L_p of tau = -1..1 over the samples. The phases are
-// known exactly, so that a shaft that speeds up leaves no error; what is approximated is how the
-// amplitude changes, and that is followed where the samples hold more turns than the polynomials
-// have terms. (A Vold-Kalman filter says the same by a penalty on the change; H. Vold, J. Leuridan,
-// SAE 931288.)
+// known exactly, so that a change of speed causes no error; only the change of the amplitude is
+// approximated, accurately where the samples span more turns than the polynomials have terms. (A
+// Vold-Kalman filter achieves the same by a penalty on the change; H. Vold, J. Leuridan, SAE
+// 931288.)
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ namespace whirl_twin {
 
 class HarmonicFit {
  public:
-  /// Samples at `tau`, -1..1; room for so many columns.
+  /// Samples at `tau`, -1..1; capacity for `most_columns` columns.
   HarmonicFit(Eigen::ArrayXd tau, Eigen::Index most_columns);
 
   /// What does not turn: a polynomial. It is harmonic 0, and to be added first.
@@ -29,7 +29,7 @@ class HarmonicFit {
   /// Columns for another harmonic of this degree.
   bool hasRoom(int degree) const;
 
-  /// Fits. False where the samples cannot tell the harmonics apart.
+  /// Fits. False where the samples cannot separate the harmonics.
   bool solve(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y);
 
   // After solve(), at tau = 0.
@@ -44,13 +44,14 @@ class HarmonicFit {
   std::complex<double> backwardChange(std::size_t harmonic) const {
     return part(harmonic, -1.0, true);
   }
-  /// Standard deviation of either part of forward or backward, if what is left over is noise.
+  /// Standard deviation of real and imaginary part of forward or backward, if the residual is
+  /// noise.
   double deviation(std::size_t harmonic) const;
   /// How far [the unit of x] forward or backward may be off: by noise, by what the last terms of
   /// the polynomial let expect of those that it does not have, and by all of its change where that
   /// is more than what stays, for then something else turns beside this harmonic.
   double doubt(std::size_t harmonic) const;
-  /// What is left over, as x + i y, and its root mean square in one direction.
+  /// The residual, as x + i y, and its root mean square in one direction.
   const Eigen::ArrayXcd& rest() const { return rest_; }
   double noise() const { return noise_; }
 

@@ -75,7 +75,7 @@ bool Decimator::take(const Eigen::VectorXcd& z) {
 
 namespace {
 
-constexpr std::size_t kMostParts = 20;  // then two become one
+constexpr std::size_t kMaxParts = 20;  // then two become one
 constexpr std::int64_t kShortestPart = 16;
 
 }  // namespace
@@ -87,8 +87,8 @@ LaggedCovariance::LaggedCovariance(Eigen::Index stations, int first_lag, int lag
       part_samples_(kShortestPart) {}
 
 void LaggedCovariance::beginPart() {
-  if (parts_.size() == kMostParts) {
-    for (std::size_t i = 0; i < kMostParts / 2; ++i) {
+  if (parts_.size() == kMaxParts) {
+    for (std::size_t i = 0; i < kMaxParts / 2; ++i) {
       Part& kept = parts_[i];
       if (i > 0) {
         kept = parts_[2 * i];
@@ -99,7 +99,7 @@ void LaggedCovariance::beginPart() {
       }
       kept.samples += next.samples;
     }
-    parts_.resize(kMostParts / 2);
+    parts_.resize(kMaxParts / 2);
     part_samples_ *= 2;
   }
   parts_.push_back({nothing_, 0});

@@ -2,9 +2,10 @@
 //
 //   R_k = sum over t: z(t + k) z(t)^H,   the same t for every lag k,
 //
-// so that a motion that grows or dies is told as such. The record is kept as 10 to 19 parts of one
-// length whatever its own: leaving them out one by one says how far what follows from the sums may
-// be off (the jackknife; B. Efron, C. Stein, Ann. Stat. 9 (1981)). Memory does not grow.
+// so that growth and decay of a motion are identified as such. The record is stored as 10 to 19
+// parts of equal length, whatever the length of the record: omitting them one by one gives the
+// standard deviation of results from the sums (the jackknife; B. Efron, C. Stein, Ann. Stat. 9
+// (1981)). Memory does not grow.
 #pragma once
 
 #include <Eigen/Core>
@@ -50,14 +51,14 @@ class LaggedCovariance {
  public:
   using Sums = std::vector<Eigen::MatrixXcd>;  ///< a lag each
 
-  /// Of so many stations, for the lags first_lag, first_lag + 1, ...
+  /// For a number of stations and the lags first_lag, first_lag + 1, ...
   LaggedCovariance(Eigen::Index stations, int first_lag, int lags);
 
   void take(const Eigen::VectorXcd& z);
   /// The next sample does not follow the last one.
   void interrupt() { kept_ = 0; }
 
-  std::int64_t samples() const { return samples_; }  ///< that stand in the sums, as t
+  std::int64_t samples() const { return samples_; }  ///< in the sums, as t
   double meanSquare() const;                         ///< E|z|^2, of all stations together
   std::size_t parts() const { return parts_.size(); }
   Sums all() const { return without(parts_.size()); }

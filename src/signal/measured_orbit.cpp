@@ -12,8 +12,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kLeastAngle = 1.0e-3;      // [-], sine of that between the two probes
-constexpr std::size_t kMostPulses = 4096;   // that wait for samples
+constexpr double kMinAngle = 1.0e-3;        // [-], sine of that between the two probes
+constexpr std::size_t kMaxPulses = 4096;    // that wait for samples
 constexpr std::int64_t kExact = 1LL << 53;  // [ns], up to which a double counts them
 constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
 
@@ -28,7 +28,7 @@ std::int64_t periodOf(const state::Measurement& message) {
 }  // namespace
 
 bool MeasuredOrbit::makeAnOrbit(double first, double second) {
-  return std::fabs(std::sin(second - first)) >= kLeastAngle;
+  return std::fabs(std::sin(second - first)) >= kMinAngle;
 }
 
 MeasuredOrbit::MeasuredOrbit(const MeasuredOrbitSettings& settings)
@@ -105,7 +105,7 @@ void MeasuredOrbit::takeProbe(std::size_t probe, const state::Measurement& messa
   }
 }
 
-/// Judged six samples later, by when a reading nearly always still waits for the next pulse.
+/// Evaluated six samples later, when a reading is nearly always still waiting for the next pulse.
 void MeasuredOrbit::leaveOutWild(std::size_t probe) {
   std::deque<Reading>& waiting = readings_[probe];
   const auto wild = wild_[probe].take(waiting.back().instant, waiting.back().value);
@@ -152,7 +152,7 @@ void MeasuredOrbit::advance(std::vector<OrbitSample>& out, double longest_wait) 
     const bool sample_waits = paired();
     const std::int64_t instant = sample_waits ? readings_[0].front().instant : 0;
     const bool followed = shaft_.locked() && sample_waits && instant <= shaft_.newest();
-    if (!followed && !pulses_.empty() && (sample_waits || pulses_.size() > kMostPulses)) {
+    if (!followed && !pulses_.empty() && (sample_waits || pulses_.size() > kMaxPulses)) {
       shaft_.take(pulses_.front());
       pulses_.pop_front();
     } else if (sample_waits && (followed || ahead(instant) > longest_wait)) {

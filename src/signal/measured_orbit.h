@@ -1,10 +1,10 @@
-// The orbit of a shaft as two displacement probes and a keyphasor measure it: their messages go in,
-// samples with the angle of the shaft come out, in order.
+// Orbit of a shaft from two displacement probes and a keyphasor: converts their messages into
+// ordered samples with the angle of the shaft.
 //
-// A probe along a direction a sees x cos a + y sin a; two of different directions, at any angle to
-// one another, give x and y. A sample waits for the pulse that follows it, so that the angle is
-// known from both sides; where none comes in time, as of a shaft that stands, the angle is
-// predicted, and where that is beyond half a turn of doubt the sample has speed 0: no orders.
+// A probe along a direction a measures x cos a + y sin a; two of different directions, at any angle
+// to one another, give x and y. A sample waits for the pulse that follows it, so that the angle is
+// known from both sides; where none arrives in time, as at standstill, the angle is predicted;
+// where the uncertainty of that exceeds half a turn the sample has speed 0: no orders.
 #pragma once
 
 #include <array>
@@ -33,15 +33,15 @@ struct MeasuredOrbitSettings {
   double longest_wait = 0.5;  ///< [s], of a sample for the next pulse
 };
 
-/// What has become of the samples of both probes, and why some were left out.
+/// Counts of the samples of both probes, and of the reasons for rejection.
 struct SampleCounts {
   std::int64_t used = 0;     ///< of either probe
-  std::int64_t invalid = 0;  ///< said to be; or in a unit that is no length
+  std::int64_t invalid = 0;  ///< marked invalid, or in a unit that is not a length
   std::int64_t not_finite = 0;
   std::int64_t repeated = 0;  ///< of the same instant as the one before
-  std::int64_t late = 0;      ///< of an instant before that of one that was taken
-  std::int64_t alone = 0;     ///< the other probe has none of that instant
-  std::int64_t wild = 0;      ///< wild_samples.h
+  std::int64_t late = 0;      ///< of an instant before an accepted one
+  std::int64_t alone = 0;     ///< no sample of the other probe at that instant
+  std::int64_t wild = 0;      ///< outliers (outliers.h)
 };
 
 class MeasuredOrbit {
@@ -53,11 +53,12 @@ class MeasuredOrbit {
 
   /// Whether messages of this source are any of its business.
   bool listensTo(const std::string& source) const;
-  /// The next message; what is complete by now is appended. Others' messages are left alone.
+  /// Processes the next message; appends the samples that are then complete. Messages of other
+  /// sources are ignored.
   void take(const state::Measurement& message, std::vector<OrbitSample>& out);
   /// What still waits, as no pulse will follow.
   void finish(std::vector<OrbitSample>& out);
-  /// Begins anew, as where time has been set back; counts go on.
+  /// Restarts, as after time was set back; counters continue.
   void clear();
 
   const SampleCounts& samples() const { return samples_; }

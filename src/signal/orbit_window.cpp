@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kMaxWindowSamples = 4096;  // samples kept, before the oldest quarter goes
 constexpr double kSamplesPerTurn = 64.0;         // kept at least, where there are so many
-constexpr double kLongestPeriod = 5.0e-3;        // [s], for a whirl that is faster than the shaft
-/// Of indices: with damaged counts or stamps a sample seems to take no time.
+constexpr double kMaxPeriod = 5.0e-3;            // [s], for a whirl that is faster than the shaft
+/// Of indices: with corrupt counters or time stamps a sample seems to take no time.
 constexpr std::int64_t kWidest = std::int64_t{1} << 40;
 
 /// Of the highest speed in a window, below which its turns are not alike: what an unbalance does
@@ -49,7 +49,7 @@ void OrbitWindow::take(const OrbitSample& sample) {
   if (!kept_.empty()) {
     sampling_ = (sample.time - last_time_) / static_cast<double>(sample.index - last_);
     const double wanted =
-        std::min(kTwoPi / (kSamplesPerTurn * std::fabs(sample.speed)), kLongestPeriod);
+        std::min(kTwoPi / (kSamplesPerTurn * std::fabs(sample.speed)), kMaxPeriod);
     while (stride_ > 1 && static_cast<double>(stride_) * sampling_ > wanted) {
       stride_ /= 2;
     }
@@ -60,8 +60,8 @@ void OrbitWindow::take(const OrbitSample& sample) {
   last_ = sample.index;
   last_time_ = sample.time;
   if (kept_.capacity() < kMaxWindowSamples) {
-    // Once, and written: memory that is touched as a run goes on looks like a leak for a minute,
-    // and growing step by step leaves as much behind again.
+    // Allocated and written once: memory that is first touched during a run looks like a leak for a
+    // minute, and stepwise growth fragments the heap by the same amount.
     kept_.resize(kMaxWindowSamples);
     kept_.clear();
   }
@@ -79,8 +79,7 @@ double OrbitWindow::since(double turns) const {
   }
   const OrbitSample& now = kept_.back();
   const double direction = now.speed < 0.0 ? -1.0 : 1.0;
-  // By halves: the angle is monotonic as long as the shaft does not turn back, which is looked for
-  // after.
+  // Bisection: the angle is monotonic unless the shaft reverses, which is checked afterwards.
   const auto far = [&](const OrbitSample& s) { return direction * turned(s, now) >= turns; };
   const auto first_near = std::partition_point(kept_.begin(), kept_.end(), far);
   if (first_near == kept_.begin()) {

@@ -11,7 +11,7 @@ namespace whirl_twin {
 
 /// What two probes and a keyphasor know of one instant.
 struct OrbitSample {
-  std::int64_t index = 0;  ///< rises by one from sample to sample; a hole is a sample that is lost
+  std::int64_t index = 0;  ///< increases by one from sample to sample; a gap is a lost sample
   double time = 0.0;       ///< [s]
   std::int64_t turns = 0;  ///< of the shaft, whole, from its phase mark
   double remainder = 0.0;  ///< [rad], and the rest of a turn
@@ -35,16 +35,16 @@ struct OrbitPart {
 
 class OrbitWindow {
  public:
-  /// Takes the next sample. An index or a time that goes back begins anew; a sample that is not
-  /// finite, or the last one again, is left out.
+  /// Adds the next sample. An index or a time that decreases restarts the window; a sample that is
+  /// not finite, or a duplicate of the last one, is ignored.
   void take(const OrbitSample& sample);
   void clear();
 
   bool empty() const { return kept_.empty(); }
   const OrbitSample& newest() const { return kept_.back(); }
 
-  /// How far back [s] the shaft has turned so many turns; 0 where it has not, where the samples do
-  /// not reach, or where it was slower than half its highest speed meanwhile.
+  /// Time [s] since the shaft was `turns` turns back; 0 where it has not, where the samples do not
+  /// reach, or where it was slower than half its highest speed meanwhile.
   double since(double turns) const;
   /// The samples of the last so many seconds, at most `most`, evenly.
   OrbitPart last(double seconds, std::size_t most) const;

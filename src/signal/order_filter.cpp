@@ -12,7 +12,7 @@
 
 namespace whirl_twin {
 
-state::OrderState toldOrders(const OrbitEstimate& e) {
+state::OrderState reportedOrders(const OrbitEstimate& e) {
   state::OrderState s;
   s.valid = e.valid;
   s.delay = e.delay;
@@ -61,10 +61,10 @@ constexpr int kLineDegree = 3;
 constexpr int kMaxFittedLines = 4;
 /// Of a peak of noise among some hundred bins hardly ever.
 constexpr double kProminent = 12.0;
-/// A line takes this part of the noise away, or it is none.
+/// A line must reduce the noise to this fraction.
 constexpr double kWorthwhile = 0.8;
-/// Parts of the motion: noise below the first is not looked into for lines, and lines below the
-/// second, which may stand for how another one changes, are not told.
+/// Fractions of the motion: noise below the first is not searched for lines, and lines below the
+/// second, which may be artefacts of the change of a stronger one, are not reported.
 constexpr double kQuiet = 1.0e-7;
 constexpr double kMinFittedLine = 1.0e-4;
 
@@ -74,7 +74,7 @@ double cyclesApart(int degree, int other) {
   return 0.25 * (degree + other + 2);
 }
 
-/// The fit of a window, and what is fitted.
+/// The fit of a window and its components.
 struct Fit {
   const OrbitPart& part;
   std::vector<double> orders;  // the mean is order 0
@@ -122,7 +122,7 @@ struct Fit {
   bool findLine();
 };
 
-/// A line there can be told from the orders, and from the lines so far.
+/// Whether a line there can be separated from the orders and from the lines found so far.
 bool Fit::standsApart(double frequency) const {
   for (std::size_t i = 0; i < orders.size(); ++i) {
     const double order = orders[i] * std::fabs(part.speed);
@@ -161,7 +161,7 @@ bool Fit::findLine() {
   addLine(*found);
   bool fits = solve();
   if (fits) {
-    // The amplitude turns by what the frequency was off.
+    // The phase of the amplitude rotates at the frequency error.
     const double better = *found + changeOf(lines.size() - 1).imag();
     removeLine();
     fits = std::fabs(better - *found) < perCycle() && standsApart(better);
@@ -176,7 +176,7 @@ bool Fit::findLine() {
   return false;
 }
 
-/// Area swept about the mean, beside what steps of that length could sweep there.
+/// Area swept about the mean, relative to the maximum for steps of that length.
 double precessionOf(const OrbitPart& part, std::complex<double> mean) {
   double swept = 0.0;
   double most = 0.0;
@@ -246,7 +246,7 @@ OrbitEstimate OrderFilter::fitted(const Reach& reach, double seconds) const {
 }
 
 OrbitEstimate OrderFilter::estimate() const {
-  // From the quietest to the quickest: what 4 and 2 turns can tell of a resonance that is passed.
+  // From the longest to the shortest window: 4 and 2 turns for the passage of a resonance.
   static constexpr Reach kReaches[] = {{16, 2, 2, 1}, {8, 4, 2, 1}, {4, 7, 3, 0}, {2, 3, 2, 0}};
   static constexpr Reach kFewSamples = {64, 2, 2, 1};  // a turn
   static constexpr Reach kMeanOnly = {0, 0, 0, 1};

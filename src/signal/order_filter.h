@@ -1,15 +1,15 @@
-// A tracking filter of orders: what of a whirl turns with 1, 2, ... times the shaft, forwards and
-// backwards, live and in run-ups, with the mean position (gap, sag) and what does not turn with the
-// shaft (oil whirl and whip, free vibration) told apart.
+// Order tracking filter: forward and backward components of a whirl at 1, 2, ... times the shaft
+// speed, online and in run-ups, separated from the mean position (gap, sag) and from
+// non-synchronous components (oil whirl and whip, free vibration).
 //
 // Least squares (harmonic_fit.h) over a window that ends now: orders and lines with polynomial
-// amplitudes, read at the middle of the window. Long windows are quiet, short ones follow: that one
-// is taken which leaves the least doubt about the first order. Lines that no order explains are
-// looked for in the full spectrum of what the fit leaves, and fitted along.
+// amplitudes, evaluated at the middle of the window. Long windows have less noise, short ones less
+// lag: the window with the smallest uncertainty of the first order is used. Lines that no order
+// explains are searched in the full spectrum of the residual, and included in the fit.
 //
-// An amplitude that changes by much within a turn cannot be told from a neighbouring order, by this
-// or any other filter: of a resonance of damping ratio D passed at a rad/s^2, the error is some
-// exp(-2 pi D w0^2 / a).
+// An amplitude that changes strongly within a turn cannot be separated from a neighbouring order,
+// by this or any other filter: for the passage of a resonance of damping ratio D at a rad/s^2 the
+// error is about exp(-2 pi D w0^2 / a).
 #pragma once
 
 #include <complex>
@@ -22,7 +22,7 @@
 
 namespace whirl_twin {
 
-/// A vibration that does not turn with the shaft.
+/// A non-synchronous component.
 struct SpectralLine {
   double frequency = 0.0;  ///< [rad/s], > 0
   double forward = 0.0;    ///< [m], amplitude from x towards y
@@ -30,7 +30,7 @@ struct SpectralLine {
   double growth = 0.0;     ///< [1/s], of the larger one
 };
 
-/// What a window holds, at its middle.
+/// The result of a window, at its middle.
 struct OrbitEstimate {
   bool valid = false;               ///< there are orders: the shaft has turned often enough
   double time = 0.0;                ///< [s]
@@ -38,12 +38,12 @@ struct OrbitEstimate {
   double speed = 0.0;               ///< [rad/s]
   double window = 0.0;              ///< [s], long
   std::complex<double> mean;        ///< [m], where the orbit is centred
-  std::vector<OrderVector> orders;  ///< as asked for
+  std::vector<OrderVector> orders;  ///< as requested
   std::vector<SpectralLine> lines;  ///< largest first
-  double noise = 0.0;               ///< [m], root mean square of what is left, in one direction
+  double noise = 0.0;               ///< [m], root mean square of the residual, in one direction
   double peak_to_peak = 0.0;        ///< [m], the larger of those along x and y
-  /// Area swept about the mean beside that of a circle: 1 in the direction of rotation, -1 against
-  /// it, 0 on a line. Of the motion as it is, whatever it consists of.
+  /// Area swept about the mean relative to that of a circle: 1 in the direction of rotation, -1
+  /// against it, 0 on a line. Of the total motion.
   double precession = 0.0;
 };
 
@@ -65,9 +65,9 @@ class OrderFilter {
   std::vector<double> orders_;
 };
 
-// What an order filter has found, as the message that tells it.
+// The result of an order filter as a message.
 
 /// Without system and instant.
-state::OrderState toldOrders(const OrbitEstimate& estimate);
+state::OrderState reportedOrders(const OrbitEstimate& estimate);
 
 }  // namespace whirl_twin

@@ -1,11 +1,11 @@
-// What turns with a shaft, as vectors. A centre z = x + i y that moves with k times the angle
-// theta of the shaft (from its phase mark) is
+// Order vectors of a synchronous motion. A centre z = x + i y that moves with k times the angle
+// theta of the shaft (from its phase reference) is
 //
 //   z = f e^(i k theta) + b e^(-i k theta)
 //
-// a forward circle of radius |f| and a backward one of radius |b|: an ellipse. A probe along x sees
-// Re((f + conj b) e^(i k theta)), one along y Re(-i (f - conj b) e^(i k theta)). Lags count as
-// WhirlState's phase does: how far the motion is behind the mark.
+// a forward circle of radius |f| and a backward one of radius |b|: an ellipse. A probe along x
+// measures Re((f + conj b) e^(i k theta)), one along y Re(-i (f - conj b) e^(i k theta)). Lags are
+// counted as the phase of WhirlState: the angle of the motion behind the phase reference.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,7 @@ struct OrderVector {
   double backwardLag() const { return -std::arg(backward); }               ///< [rad], likewise
   double major() const { return std::abs(forward) + std::abs(backward); }  ///< [m], semi-axis
   double minor() const { return std::fabs(std::abs(forward) - std::abs(backward)); }  ///< [m]
-  /// Amplitude [m] and angle of what a probe sees: Re(alongX() e^(i k theta)).
+  /// Amplitude [m] and angle at a probe: Re(alongX() e^(i k theta)).
   std::complex<double> alongX() const { return forward + std::conj(backward); }
   std::complex<double> alongY() const {
     return std::complex<double>(0.0, -1.0) * (forward - std::conj(backward));

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kWild = 12.0;
 constexpr std::size_t kFewest = 24;  // distances, before which nothing is usual
-constexpr double kMostWild = 0.01;
+constexpr double kMaxWild = 0.01;
 constexpr double kForgetting = 1.0 / 500.0;
 
 double medianOfThree(const double* a) {
@@ -39,7 +39,7 @@ std::optional<std::int64_t> WildSampleDetector::take(std::int64_t instant, doubl
   }
   std::rotate(distances_.begin(), distances_.begin() + 1, distances_.end());
   distances_.back() = distance();
-  // The one judged is in the middle of the distances; its own is not usual yet.
+  // The sample under test is in the middle of the distances; its own is not in the statistics yet.
   const double own = distances_[3];
   bool wild = false;
   if (taken_ >= 2 * values_.size() - 1 && judged_ >= kFewest) {
@@ -53,7 +53,7 @@ std::optional<std::int64_t> WildSampleDetector::take(std::int64_t instant, doubl
   }
   last_distances_[judged_++ % kUsual] = own;
   rate_ += kForgetting * ((wild ? 1.0 : 0.0) - rate_);
-  if (!wild || rate_ > kMostWild) {
+  if (!wild || rate_ > kMaxWild) {
     return std::nullopt;
   }
   ++found_;

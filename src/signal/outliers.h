@@ -1,4 +1,4 @@
-// A standard deviation of which the few that are wild decide nothing.
+// Robust standard deviation and outlier detection.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace whirl_twin {
 
 /// The standard deviation for which seven of eight of the first `count` deviates, without sign, are
-/// as small as they are; those after them are not read. Half of them (the median) would not see a
-/// clock whose steps are nearly a part of the period: most are then off by the same.
+/// as small as they are; further elements are not read. A scale by half of them (the median) would
+/// miss a clock whose steps are nearly a fraction of the period: most deviates are then equal.
 template <std::size_t N>
 double robustScale(std::array<double, N> deviates, std::size_t count) {
   constexpr double kSevenOfEight = 1.534;  // standard deviations of a normal distribution
@@ -21,28 +21,28 @@ double robustScale(std::array<double, N> deviates, std::size_t count) {
   return deviates[static_cast<std::size_t>(place)] / kSevenOfEight;
 }
 
-// Single samples of a measured channel that cannot be of its signal: a spike of a converter or a
-// cable. Of a least-squares estimate one such sample in ten thousand would decide.
+// Outliers of a measured channel: single spikes of a converter or a cable. One such sample in ten
+// thousand would dominate a least-squares estimate.
 //
 // A sample is compared with the median of the three before it and with that of the three after it;
-// the smaller distance counts, so that a step of the signal is none. It is wild where that distance
-// is more than 12 times
-//   - the standard deviation of the last 128 distances (robust_scale.h),
-//   - the median of the distances of its six neighbours, so that the beginning of a motion is none,
+// the smaller distance counts, so that a step of the signal is no outlier. It is an outlier where
+// that distance is more than 12 times
+//   - the standard deviation of the last 128 distances (robustScale),
+//   - the median of the distances of its six neighbours, so that a motion may start,
 //   - the smallest change that the channel has shown, which is a step of its converter.
-// Where more than one of a hundred samples would be wild, they are the signal (a scratch of the
-// shaft that a probe sees once a turn, say) and none is marked: Hampel's rule (The influence curve
-// and its role in robust estimation, J. Am. Stat. Assoc. 69 (1974), 383-393), for a signal that
-// moves.
+// Where more than one of a hundred samples would be outliers, they are part of the signal (for
+// instance a scratch of the shaft that passes a probe once per turn) and none is marked: Hampel's
+// rule (The influence curve and its role in robust estimation, J. Am. Stat. Assoc. 69 (1974),
+// 383-393), for a time-varying signal.
 
 class WildSampleDetector {
  public:
-  static constexpr int kBehind = 6;  ///< samples after one that are needed to judge it
+  static constexpr int kBehind = 6;  ///< later samples that the test of a sample needs
 
-  /// The next sample, at an instant [ns] later than the one before; finite. Returns the instant of
-  /// the sample kBehind before it where that one is wild. Allocates nothing.
+  /// Adds the next sample, finite, at an instant [ns] later than the one before. Returns the
+  /// instant of the sample kBehind before it where that one is an outlier. Does not allocate.
   std::optional<std::int64_t> take(std::int64_t instant, double value);
-  /// Those that were wild, so far.
+  /// Number of outliers so far.
   std::int64_t found() const { return found_; }
 
  private:
@@ -56,7 +56,7 @@ class WildSampleDetector {
   std::array<double, kUsual> last_distances_{};
   std::size_t taken_ = 0, judged_ = 0;
   double smallest_change_ = 0.0;
-  double rate_ = 0.0;  // share of wild samples, lately
+  double rate_ = 0.0;  // recent fraction of outliers
   std::int64_t found_ = 0;
 };
 

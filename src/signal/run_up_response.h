@@ -1,11 +1,11 @@
 // Critical speeds and amplification factors from an actual run-up or run-down: its amplitudes over
-// the speed, by half power as API 684 has it,
+// the speed, by the half-power method of API 684,
 //
 //   AF = Nc / (N2 - N1),   N1 and N2 where the amplitude is 0.707 of the peak at Nc.
 //
-// A shaft that passes fast finds its peak later and lower than one that dwells: the factor is that
-// of the rotor where the passage is slow, a < 0.15 (N2 - N1)^2 (ISO 7626-2 is quoted with 54
-// f^2/Q^2 Hz/min, which is the same), and else too small.
+// In a fast passage the peak is later and lower than at constant speed: the factor is that of the
+// rotor where the passage is slow, a < 0.15 (N2 - N1)^2 (ISO 7626-2 is inQuotes with 54 f^2/Q^2
+// Hz/min, which is the same), and else too small.
 #pragma once
 
 #include <optional>

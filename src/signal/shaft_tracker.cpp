@@ -18,16 +18,16 @@ constexpr double kKnown = 0.5 * kTwoPi;  // [rad], that two standard deviations 
 constexpr int kByRefused = 2;
 constexpr int kByMissed = 3;
 constexpr int kByTaken = -1;
-constexpr int kMostDoubt = 20;
+constexpr int kMaxDoubt = 20;
 
 // Four pulses in a row that a constant acceleration explains: they are marks, none missing.
-constexpr double kMostChange = 1.4;        // of intervals, from one to the next
+constexpr double kMaxChange = 1.4;         // of intervals, from one to the next
 constexpr double kMisfit = 0.01 * kTwoPi;  // [rad], besides jitter
-constexpr double kMostMisfit = 0.05 * kTwoPi;
+constexpr double kMaxMisfit = 0.05 * kTwoPi;
 
 // As stated, unless the pulses scatter this many times more.
 constexpr double kClearlyMore = 1.5;
-constexpr std::size_t kFewestMisfits = 8;
+constexpr std::size_t kMinMisfits = 8;
 // Variance that white jerk of density 1 leaves over four instants a second apart, in angle: that of
 // a third difference, 11/20, over the sum of its squared weights, 20.
 constexpr double kWanderOfFour = 11.0 / 400.0;
@@ -142,14 +142,14 @@ bool ShaftTracker::judge(std::int64_t instant) {
     return refuse();
   }
   if (std::fabs(innovation) > kGate * std::sqrt(now.covariance(0, 0) + variance)) {
-    // It may be the shaft that did what nobody expected: twice the doubt.
+    // The shaft may have deviated from the prediction: doubles the standard deviation.
     after_->covariance *= 4.0;
     return refuse();
   }
   doubt_ = std::max(0, doubt_ + kByTaken + (marks > 1.0 ? kByMissed : 0));
   counts_.missed += std::llround(marks) - 1;
   take(now, innovation, variance);
-  return doubt_ < kMostDoubt || lock();
+  return doubt_ < kMaxDoubt || lock();
 }
 
 void ShaftTracker::take(const State& predicted, double innovation, double variance) {
@@ -168,7 +168,7 @@ bool ShaftTracker::refuse() {
   // The one before this and the two before that: of four, with this one, two were refused.
   const bool surprising = refused_[0] || refused_[1] || refused_[2];
   const bool moves_otherwise = surprising && agreement();
-  return (moves_otherwise || doubt_ >= kMostDoubt) && lock();
+  return (moves_otherwise || doubt_ >= kMaxDoubt) && lock();
 }
 
 /// Instants [s] of the last four pulses from the first of them, and the angle [rad] by which they
@@ -183,7 +183,7 @@ double ShaftTracker::intervals(std::array<double, 4>& t) const {
   }
   for (std::size_t i = 2; i < 4; ++i) {
     const double change = (t[i] - t[i - 1]) / (t[i - 1] - t[i - 2]);
-    if (change > kMostChange || change * kMostChange < 1.0) {
+    if (change > kMaxChange || change * kMaxChange < 1.0) {
       return std::numeric_limits<double>::infinity();
     }
   }
@@ -203,7 +203,7 @@ double ShaftTracker::intervals(std::array<double, 4>& t) const {
 void ShaftTracker::learnJitter() {
   std::array<double, 4> t{};
   const double misfit = intervals(t);
-  if (misfit > kMostMisfit) {
+  if (misfit > kMaxMisfit) {
     return;
   }
   const double wander = kWanderOfFour * settings_.white_jerk * std::pow(t[3] / 3.0, 5);
@@ -211,7 +211,7 @@ void ShaftTracker::learnJitter() {
   misfits_[misfits_taken_++ % misfits_.size()] =
       std::sqrt(std::max(0.0, misfit * misfit - wander)) / speed;
   const std::size_t count = std::min(misfits_taken_, misfits_.size());
-  if (count < kFewestMisfits) {
+  if (count < kMinMisfits) {
     return;
   }
   const double shown = robustScale(misfits_, count);
@@ -222,7 +222,7 @@ void ShaftTracker::learnJitter() {
 std::optional<double> ShaftTracker::agreement() const {
   std::array<double, 4> t{};
   const double misfit = intervals(t);
-  if (misfit > kMostMisfit) {
+  if (misfit > kMaxMisfit) {
     return std::nullopt;
   }
   const double wander = std::sqrt(settings_.white_jerk * wandered(t[1])(0, 0));

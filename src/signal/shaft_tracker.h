@@ -1,23 +1,24 @@
-// The angle of a shaft from the pulses of a keyphasor, one mark a turn: a Kalman filter of angle,
-// speed and acceleration, whose jerk is white noise of a given density. Whole turns are counted
-// apart from the rest of a turn, so that the phase after a month is as exact as after a minute.
+// Angle of a shaft from the pulses of a keyphasor, one per turn: a Kalman filter of angle, speed
+// and acceleration, whose jerk is white noise of a given density. Whole turns are counted
+// separately from the fraction of a turn, so that the phase after a month is as exact as after a
+// minute.
 //
-// A pulse is taken for the mark that is nearest to the angle predicted, so that turns whose pulse
-// is missing are counted; one that lies too far from every mark is refused. Between the last two
+// A pulse is assigned to the mark nearest to the predicted angle, so that turns whose pulse is
+// missing are counted; one that lies too far from every mark is rejected. Between the last two
 // pulses the angle is that of the smoother (Rauch, Tung, Striebel, "Maximum likelihood estimates of
 // linear dynamic systems", AIAA J. 3 (1965)), after them that of the prediction.
 //
-// Where the acceleration jumps, as at the start of a fast run-up, the first pulses are refused.
-// Four pulses in a row that agree on another constant acceleration, of which two were refused,
-// begin it again.
+// Where the acceleration jumps, as at the start of a fast run-up, the first pulses are rejected.
+// Four consecutive pulses that fit a different constant acceleration, two of them rejected, restart
+// the filter.
 //
-// How much the instants of pulses scatter is estimated, too: four pulses in a row leave one number
-// that neither angle, speed nor a constant acceleration explains, and what seven of eight of the
-// last 64 of these stay below is compared with the scatter stated. Where it is clearly larger, it
-// is used instead, so that a converter whose clock is coarser than stated does not lose its pulses.
+// The scatter of the pulse instants is estimated, too: four consecutive pulses give one residual
+// that neither angle, speed nor a constant acceleration explains, and the 7/8 quantile of the last
+// 64 residuals is compared with the specified scatter. Where it is clearly larger, it is used
+// instead, so that pulses of a converter whose clock is coarser than specified are not rejected.
 //
-// A keyphasor does not tell which way a shaft turns: it is taken to turn forwards, and not to turn
-// back where it slows down.
+// A keyphasor does not measure the direction of rotation: forward rotation is assumed, without
+// reversal on deceleration.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,8 +41,8 @@ struct ShaftTrackerSettings {
                              ///< it in a second
 };
 
-/// Of a keyphasor whose mark lies an angle `phase` [rad] behind the one asked for. A step of its
-/// clock of length r has a standard deviation of r / sqrt(12); none is below `least` [s].
+/// Settings for a keyphasor whose mark lies an angle `phase` [rad] behind the required one. A step
+/// of its clock of length r has a standard deviation of r / sqrt(12); none is below `least` [s].
 ShaftTrackerSettings trackerOf(const KeyphasorSettings& keyphasor, double phase = 0.0,
                                double least = 1.0e-7);
 
@@ -59,7 +60,7 @@ struct PulseCounts {
   std::int64_t taken = 0;
   std::int64_t refused = 0;  ///< too far from the mark, or not later than the one before
   std::int64_t missed = 0;   ///< turns without a pulse, between two that were taken
-  std::int64_t locked = 0;   ///< how often the shaft was found, at first or anew
+  std::int64_t locked = 0;   ///< number of locks, including restarts
 };
 
 class ShaftTracker {
@@ -68,9 +69,9 @@ class ShaftTracker {
 
   explicit ShaftTracker(const ShaftTrackerSettings& settings = {});
 
-  /// The next pulse, at an instant [ns]; true where it tells of the shaft.
+  /// Adds the next pulse, at an instant [ns]; true where it is accepted.
   bool take(std::int64_t instant);
-  /// Begins anew, as where time has been set back; counts go on.
+  /// Restarts, as after time was set back; counters continue.
   void clear();
   /// The shaft at an instant [ns] that is not before the last pulse but one that was taken. Not
   /// known before there have been four pulses in a row that agree.

@@ -18,7 +18,7 @@ constexpr std::size_t kMaxSpectrumSamples = 8192;  // of a window
 constexpr std::size_t kMinSpectrumSamples = 64;    // likewise
 constexpr double kFirst = 1.0;                     // [s], until the first spectrum
 constexpr double kOften = 0.25;                    // [s], from one to the next at first
-constexpr std::size_t kMostSpectra = 96;           // then every second one goes
+constexpr std::size_t kMaxSpectra = 96;            // then every second one goes
 constexpr double kSamplesATurn = 2.5;         // at least: below two the shaft is not seen to turn
 constexpr std::size_t kMaxSpectrumLines = 8;  // of a spectrum
 constexpr double kMinSpectrumLine = 0.01;     // of the largest: side lobes are below
@@ -117,11 +117,11 @@ void SpectrumCascade::take(const OrbitSample& sample) {
   if (std::optional<WindowSpectrum> spectrum = latest()) {
     spectra_.push_back(std::move(*spectrum));
   }
-  if (spectra_.size() == kMostSpectra) {
-    for (std::size_t i = 0; 2 * i + 1 < kMostSpectra; ++i) {
+  if (spectra_.size() == kMaxSpectra) {
+    for (std::size_t i = 0; 2 * i + 1 < kMaxSpectra; ++i) {
       spectra_[i] = std::move(spectra_[2 * i + 1]);
     }
-    spectra_.resize(kMostSpectra / 2);
+    spectra_.resize(kMaxSpectra / 2);
     every_ *= 2.0;
   }
   due_ = sample.time + every_;
@@ -133,7 +133,7 @@ std::optional<WindowSpectrum> SpectrumCascade::latest() const {
   }
   const double whole = kept_.back().time - kept_.front().time;
   if (!(whole > 0.0)) {
-    return std::nullopt;  // stamps may say anything
+    return std::nullopt;  // time stamps may be invalid
   }
   const double period = whole / static_cast<double>(kept_.size() - 1);
   const double rate = std::fabs(kept_.back().speed - kept_.front().speed) / whole;

@@ -1,9 +1,8 @@
-// The full spectra of a motion as it goes on: what a cascade (waterfall) shows of a run-up or of
-// hours, and the lines of each by name.
+// Cascade (waterfall) of full spectra of a motion, for a run-up or hours of operation, with
+// classified lines.
 //
-// A window is as long as its lines stay sharp: a shaft that gains a rad/s each second runs through
-// a T while a window of T tells 4 pi / T apart, so that T = sqrt(4 pi / a) blurs no more than it
-// resolves.
+// The window is as long as its lines stay sharp: at an acceleration a [rad/s^2] the speed changes
+// by a T while the resolution of a window T is 4 pi / T; both are equal for T = sqrt(4 pi / a).
 #pragma once
 
 #include <cstdint>
@@ -20,18 +19,18 @@ struct SpectrumLine {
   double frequency = 0.0;  ///< [rad/s]
   double amplitude = 0.0;  ///< [m]
   double ratio = 0.0;      ///< [-], of its size to that of the speed; NaN at standstill
-  int order = 0;           ///< 1: 1X, 2: 2X, ...; 0: it turns with no whole order
+  int order = 0;           ///< 1: 1X, 2: 2X, ...; 0: no integer order
 
   /// It is slower than the shaft: oil whirl, whip, a rub, free vibration.
   bool subsynchronous() const { return order == 0 && ratio < 1.0; }
 };
 
-/// The full spectrum of a window, its mean left out.
+/// The full spectrum of a window, without its mean.
 struct WindowSpectrum {
   double begin = 0.0, end = 0.0;    ///< [s], of the window
   double speed = 0.0;               ///< [rad/s], of the shaft, at its middle
   double smear = 0.0;               ///< [rad/s], by which the speed changed in it
-  double resolution = 0.0;          ///< [rad/s], between lines that are told apart
+  double resolution = 0.0;          ///< [rad/s], smallest distance of separable lines
   double first = 0.0, step = 0.0;   ///< [rad/s], frequency of the first amplitude, and to the next
   std::vector<float> amplitude;     ///< [m], a circle has its radius
   std::vector<SpectrumLine> lines;  ///< largest first, from a hundredth of the largest on

@@ -10,7 +10,7 @@ namespace whirl_twin {
 namespace {
 
 /// Of the largest singular value, below which there is no mode but rounding.
-constexpr double kSmallestSingular = 1.0e-9;
+constexpr double kMinSingular = 1.0e-9;
 
 /// The shape with its largest part 1.
 Eigen::VectorXcd normalised(const Eigen::VectorXcd& shape) {
@@ -52,7 +52,7 @@ std::vector<IdentifiedMode> SubspaceIdentification::modes(int order) const {
   }
   const Eigen::Index shifted = left_.rows() - stations_;
   Eigen::Index modes = std::min<Eigen::Index>(order, shifted);
-  while (modes > 1 && singular_[modes - 1] < kSmallestSingular * singular_[0]) {
+  while (modes > 1 && singular_[modes - 1] < kMinSingular * singular_[0]) {
     --modes;
   }
   const Eigen::MatrixXcd observability =

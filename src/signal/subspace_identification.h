@@ -1,14 +1,14 @@
-// Covariance-driven stochastic subspace identification of what ambient noise excites: the
-// covariances R_k = E[z(t + k T) z(t)^H] of a linear system's motion z, seen at some stations, are
-// sums of its modes,
+// Covariance-driven stochastic subspace identification of an ambient response: the covariances R_k
+// = E[z(t + k T) z(t)^H] of a linear system's motion z, measured at some stations, are sums over
+// its modes,
 //
 //   R_k = sum over m: phi_m g_m^H e^((-s_m + i w_m) k T),   k = 1, 2, ...
 //
 // and the shift of their block Hankel matrix has the e^(...) as eigenvalues (P. Van Overschee, B.
 // De Moor, "Subspace identification for linear systems", 1996, ch. 3; B. Peeters, G. De Roeck,
-// Mech. Syst. Signal Process. 13 (1999)). Noise of the probes that is white is in R_0 alone, which
-// is left out: that is what spoils a fit of the samples themselves. For z = x + i y the sign of w_m
-// is the sense of the whirl, so that a forward and a backward mode of one frequency are two.
+// Mech. Syst. Signal Process. 13 (1999)). White noise of the probes is in R_0 alone, which is
+// excluded; it would bias a fit of the samples themselves. For z = x + i y the sign of w_m is the
+// sense of the whirl, so that a forward and a backward mode of equal frequency are distinct.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,8 +27,8 @@ struct IdentifiedMode {
 class SubspaceIdentification {
  public:
   /// Of R_k for k = first_lag, first_lag + 1, ... [stations x stations], an odd number of them,
-  /// `spacing` [s] apart. A lag above 1 leaves out what noise that is not quite white makes of the
-  /// first.
+  /// `spacing` [s] apart. A lag above 1 excludes the first lags, which noise that is not quite
+  /// white affects.
   SubspaceIdentification(const std::vector<Eigen::MatrixXcd>& covariance, double spacing,
                          int first_lag = 1);
 
@@ -44,7 +44,7 @@ class SubspaceIdentification {
   Eigen::MatrixXcd left_;     // its left singular vectors; none: there is nothing, or no number
 };
 
-/// The modes of one station: of covariances c_1, c_2, ..., an odd number.
+/// The modes from covariances c_1, c_2, ... of one station, an odd number.
 std::vector<IdentifiedMode> identifyModes(const std::vector<std::complex<double>>& covariance,
                                           double spacing, int order);
 

@@ -4,16 +4,15 @@
 #include <iterator>
 
 #include "messages/alert.h"
-#include "monitoring/watched_kinds.h"
 
 namespace whirl_twin {
 
 namespace {
 
 const std::string kAlarms = "alarms";
-constexpr double kTick = 0.1;  // s, as the monitor's node ticks at least
+constexpr double kTick = 0.1;  // [s], longest tick period of the monitor's node
 
-/// Tells the monitor what it listens to.
+/// Passes messages to the monitor.
 struct Listener {
   TwinMonitor& monitor;
   double now;  // s
@@ -61,7 +60,7 @@ void AlarmWatch::look() {
   orders_.take(record_.data(), observer_);
   const double time = observer_.instant().time;
   started_ = started_.value_or(time);
-  const double now = time - *started_;  // the monitor's clock only goes forward, from anywhere
+  const double now = time - *started_;  // the monitor's clock starts at 0
   for (; now - ticked_ >= kTick; ticked_ += kTick) {
     monitor_.tick(ticked_ + kTick, false);
   }
@@ -73,7 +72,7 @@ void AlarmWatch::look() {
       ++counts_[event.type];
     }
   }
-  monitor_.takeMargins();  // or they would be kept
+  monitor_.takeMargins();  // discarded; they would accumulate
   monitor_.takeLoopMargins();
   monitor_.takeOrders();
 }

@@ -1,8 +1,8 @@
-// The monitor beside a run of a study, and what it raised: as `twin monitor` judges the log of the
-// same run, message by message (monitoring/twin_monitor.h).
+// Alarms of a run of a study: the monitor, evaluated as `twin monitor` does for the log of the same
+// run, message by message (monitoring/twin_monitor.h).
 //
-//   alarms                        how often any alarm was raised
-//   alarms.IN_CRITICAL_BAND       how often one of that type was (docs/alarms.md)
+//   alarms                        number of alarms raised
+//   alarms.IN_CRITICAL_BAND       number of alarms of this type (docs/alarms.md)
 #pragma once
 
 #include <map>
@@ -18,18 +18,18 @@
 
 namespace whirl_twin {
 
-/// The type of alarm that a measure's path counts, "" for any; nothing where it counts none.
+/// Type of the alarms counted by a measure's path, "" for all; empty if the path counts none.
 std::optional<std::string> countedAlarm(const std::string& path);
-/// How they are written, for a hint.
+/// All valid paths, for a hint.
 std::vector<std::string> alarmPaths();
 
 class AlarmWatch {
  public:
-  /// The twin outlives it. Judges at once, what takes long too.
+  /// The twin must outlive it. Lengthy evaluations are done synchronously.
   AlarmWatch(const Twin& twin, const AlarmSettings& settings);
-  /// Takes the twin's present state: that of the start, then of every step.
+  /// Takes the twin's current state: at the start, then after every step.
   void look();
-  /// Of a type, or of any.
+  /// Number of alarms of a type, or of all.
   double raised(const std::string& type) const;
 
  private:
@@ -39,10 +39,10 @@ class AlarmWatch {
   StepMessages messages_;
   TwinMonitor monitor_;
   std::vector<double> record_;
-  double ticked_ = 0.0;                // s, simulated since the start
-  std::optional<double> started_;      // s, simulated
-  std::set<std::uint32_t> ids_;        // of all that were raised
-  std::map<std::string, int> counts_;  // of each type
+  double ticked_ = 0.0;                // [s], simulated since the start
+  std::optional<double> started_;      // [s], simulated
+  std::set<std::uint32_t> ids_;        // of all raised alarms
+  std::map<std::string, int> counts_;  // by type
 };
 
 }  // namespace whirl_twin

@@ -19,7 +19,7 @@ namespace {
 
 using NumberKind = AnalysedNumber::Kind;
 
-/// Parts of a name before and after the place.
+/// Parts of a name before and after the index.
 struct Name {
   const char* before;
   bool listed;
@@ -42,7 +42,7 @@ constexpr std::array<Name, 12> kNames{{
     {"separation.reserve", false, "", NumberKind::kSeparationReserve, "percent"},
 }};
 
-/// The place in "before[12]after"; nothing if it is not written so.
+/// The index in "before[12]after"; empty if the text has a different form.
 std::optional<std::size_t> placeIn(const std::string& text, const Name& name) {
   const std::string before = name.before;
   if (!name.listed) {
@@ -106,15 +106,15 @@ struct AnalysedScene::Results {
   std::shared_ptr<const Dynamics> dynamics_judged;
   std::optional<Linearization> linearization;
   Eigen::VectorXd about;
-  bool periodic = false;  ///< judged by the multipliers of a periodic motion
+  bool periodic = false;  ///< evaluated by the multipliers of a periodic motion
   Stability of_point;     ///< of the operating point
-  bool judged = true;     ///< not so where a rotor rests nowhere in its films
+  bool judged = true;     ///< false: no equilibrium of the rotor in its fluid films
   std::optional<Stability> stability;
   std::optional<std::vector<CriticalSpeed>> critical_speeds;
   std::optional<double> instability_speed;
 
   const Linearization& linearizationOf(const BuiltSystem& system, double speed,
-                                       const Moment<double>& start) {
+                                       const EvaluationPoint<double>& start) {
     if (!linearization) {
       dynamics_judged = judgedDynamics(system.dynamics, system.spec);
       const Dynamics& dynamics = *dynamics_judged;
@@ -135,7 +135,7 @@ struct AnalysedScene::Results {
   }
 
   const Stability& stabilityOf(const BuiltSystem& system, double speed,
-                               const Moment<double>& start) {
+                               const EvaluationPoint<double>& start) {
     if (!stability) {
       const Linearization& l = linearizationOf(system, speed, start);
       const Dynamics& dynamics = *dynamics_judged;
@@ -167,8 +167,8 @@ double AnalysedScene::value(const AnalysedNumber& number) {
   Results& known = results_[number.system];
   const ShaftMotion shaft = scene_.driveOf(system).at(0.0);
   const double speed = speed_.value_or(shaft.speed);
-  const Moment<double> start{scene_.startSeconds(), shaft.angle, speed,
-                             speed_ ? 0.0 : shaft.acceleration};
+  const EvaluationPoint<double> start{scene_.startSeconds(), shaft.angle, speed,
+                                      speed_ ? 0.0 : shaft.acceleration};
   const auto at = [&](const std::vector<double>& list) {
     return number.place < list.size() ? list[number.place] : kNaN;
   };
@@ -197,7 +197,7 @@ double AnalysedScene::value(const AnalysedNumber& number) {
   }
   const std::vector<CriticalSpeed>& critical_speeds = known.criticalSpeedsOf(system);
   if (number.kind == NumberKind::kSeparationReserve) {
-    double least = kInfinity;  // no critical speed: any distance is enough
+    double least = kInfinity;  // without critical speed any distance is sufficient
     for (const CriticalSpeed& critical : critical_speeds) {
       const double factor = critical.amplification_factor;
       const double asked = requiredSeparationMargin(speed, critical.speed, factor);

@@ -1,15 +1,14 @@
-// What linear theory says of a system, as numbers that a study can measure, in the words of `twin
-// analyze`:
+// Results of linear analyses as numbers that a study can measure, named as in `twin analyze`:
 //
 //   critical_speeds[0]                  [rad/s]; also .amplification_factor, .separation_margin
 //   natural_frequencies[0], damping_ratios[0]
 //   stability.sigma, margins.decay_rate [1/s], -max Re s
 //   margins.damping_ratio, margins.log_decrement
-//   margins.instability_speed           [rad/s], infinite where it never becomes unstable
-//   separation.reserve                  [percent], by how much the nearest critical speed's
-//                                       separation margin exceeds that which API 617 asks for
+//   margins.instability_speed           [rad/s], infinite if stable at all speeds
+//   separation.reserve                  [percent], separation margin of the nearest critical speed
+//                                       less the margin required by API 617
 //
-// In a scene of several systems the system's name stands before: `rotor.critical_speeds[0]`.
+// In a scene of several systems the name is prefixed by the system's: `rotor.critical_speeds[0]`.
 #pragma once
 
 #include <cstddef>
@@ -37,23 +36,23 @@ struct AnalysedNumber {
   };
   Kind kind = Kind::kDecayRate;
   std::size_t system = 0;
-  std::size_t place = 0;  ///< of the critical speed or the mode, from 0
+  std::size_t place = 0;  ///< index of the critical speed or mode
 };
 
-/// The number of that name; nothing if there is none, or where it does not say which system.
+/// The number of that name; empty if there is none, or the system is ambiguous.
 std::optional<AnalysedNumber> analysedNumber(const std::string& name, const BuiltScene& scene);
-/// How they are written, for a hint: with 0 for any place.
+/// All valid names, for a hint, with 0 as index.
 std::vector<std::string> analysedNames(const BuiltScene& scene);
 std::string unitOf(const AnalysedNumber& number);
 
-/// Of one scene, each analysis made when it is first asked for. The scene outlives it.
+/// Analyses of a scene, each made on first use. The scene must outlive it.
 class AnalysedScene {
  public:
-  /// speed [rad/s], of the shafts; nothing: as at the scene's start.
+  /// speed [rad/s], of the shafts; empty: that at the scene's start.
   AnalysedScene(const BuiltScene& scene, std::optional<double> speed);
   ~AnalysedScene();
-  /// NaN where there is none: a critical speed that the rotor does not have. Throws what an
-  /// analysis throws: RunFailure, Refusal, std::overflow_error.
+  /// NaN if undefined: a critical speed that the rotor does not have. Throws the exceptions of the
+  /// analyses: RunFailure, InputError, std::overflow_error.
   double value(const AnalysedNumber& number);
 
  private:

@@ -15,11 +15,11 @@ namespace whirl_twin {
 namespace {
 
 constexpr int kResamples = 1000;
-constexpr std::uint64_t kFewest = 2;   // rows of which anything can be said
-constexpr double kConstant = 1.0e-12;  // of the largest magnitude: a spread that is rounding
+constexpr std::uint64_t kFewest = 2;   // minimum number of rows
+constexpr double kConstant = 1.0e-12;  // relative to the largest magnitude: rounding
 
-/// The middle 95 % of what an estimator gives of `count` rows drawn with replacement. Estimators
-/// of all numbers share the draws. [value, low, high of each number]
+/// The central 95 % of an estimator over `count` rows drawn with replacement. The estimators of all
+/// numbers share the draws. [value, low, high of each number]
 template <class Estimator>
 void bootstrap(std::uint64_t count, std::uint32_t seed, std::size_t numbers,
                const Estimator& estimator, std::vector<Estimate>& estimates) {
@@ -52,7 +52,7 @@ void bootstrap(std::uint64_t count, std::uint32_t seed, std::size_t numbers,
   }
 }
 
-/// Rows of `width` points whose measures are all finite, and the number of each.
+/// Rows of `width` points with finite measures, and their row numbers.
 struct KnownRows {
   std::vector<double> values;  // [rows * width]
   std::vector<std::uint64_t> number;
@@ -71,8 +71,8 @@ KnownRows knownRows(const std::vector<double>& measure, std::uint64_t rows, std:
   return known;
 }
 
-/// What an estimator gives of all rows, and its 95 % interval: the jackknife over replicates, of
-/// which row i is in `part[i]`. [value, low, high of each number]
+/// An estimator over all rows, and its 95 % interval by the jackknife over replicates; row i is in
+/// replicate `part[i]`. [value, low, high of each number]
 template <class Estimator>
 std::vector<Estimate> jackknife(const std::vector<std::uint64_t>& part, std::uint64_t parts,
                                 const Estimator& estimator) {
@@ -176,7 +176,7 @@ MorrisEffects morrisEffects(const Design& design, std::uint32_t seed,
                             const std::vector<double>& measure) {
   const std::size_t d = design.dimensions;
   const std::size_t width = d + 1;
-  std::vector<double> effects;  // rows of one of each number
+  std::vector<double> effects;  // a row per effect
   for (std::uint64_t trajectory = 0; trajectory < design.base; ++trajectory) {
     const double* const f = measure.data() + trajectory * width;
     if (!std::all_of(f, f + width, [](double x) { return std::isfinite(x); })) {
@@ -235,12 +235,13 @@ namespace {
 
 constexpr double kWithin95 = 1.959963984540054;  // standard deviations of a normal distribution
 
-/// Of the part p, of values in their order: the r-th lies below it unless less than r of them do.
+/// Interval of the p-quantile from sorted values: the r-th value is below the quantile unless fewer
+/// than r values are.
 std::array<double, 2> intervalOf(const std::vector<double>& sorted, double p) {
   using boost::math::complement;
   const boost::math::binomial_distribution<double> below(static_cast<double>(sorted.size()), p);
-  // The largest with a chance of at most 2.5 % that fewer lie below; near the quantile, whose
-  // rounding is Boost's affair.
+  // The largest rank with a probability of at most 2.5 % that fewer are below; searched near the
+  // quantile, which Boost rounds.
   constexpr double kPart = 0.025;
   const auto n = static_cast<double>(sorted.size());
   auto low = static_cast<std::size_t>(std::fmax(0.0, quantile(below, kPart) - 2.0));

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "realtime/denormals.h"
 #include "scene/parameter_paths.h"
 #include "twin/ensemble_members.h"
@@ -39,14 +39,15 @@ BlockEvaluator::BlockEvaluator(const Study& study, const StepsChosen& steps,
   }
 }
 
-/// One system on a shaft that turns alike at all points, and measured by its peak alone.
+/// A single system, on a shaft with the same motion at all points, of which only the peak is
+/// measured.
 bool BlockEvaluator::mayGoTogether() const {
   const Scene& scene = scene_.scene;
   if (!study_.duration || scene.systems.size() != 1 || !scene.controllers.empty() ||
       !scene_.systems[0]->dynamics->isRotor() || scene_.systems[0]->integrator != kMethod) {
     return false;
   }
-  const bool avoids =  // critical speeds, which are each point's own
+  const bool avoids =  // critical speeds, which depend on the point
       std::any_of(scene.drives.begin(), scene.drives.end(),
                   [](const DriveSpec& drive) { return !drive.avoid.empty(); });
   if (avoids) {
@@ -97,7 +98,7 @@ std::vector<Outcome> BlockEvaluator::outcomes(std::uint64_t block,
 
 Outcome BlockEvaluator::at(std::uint64_t point) {
   const std::uint64_t block = point / study_.block;
-  if (together_) {  // how a step is parted hangs on all that go together
+  if (together_) {  // the number of sub-steps depends on the whole batch
     if (const auto all = together(block)) {
       return (*all)[point - study_.firstOf(block)];
     }
@@ -107,7 +108,7 @@ Outcome BlockEvaluator::at(std::uint64_t point) {
 
 BlockEvaluator::Quick::Quick(const Study& study, const BuiltScene& scene)
     : model(*scene.systems[0]->model), spec(scene.scene.systems[0]) {
-  possible = !spec.rest;  // the equilibrium is that of each point
+  possible = !spec.rest;  // the equilibrium depends on the point
   for (const Variation& variation : study.vary) {
     const SceneNumber& place = variation.places.front();
     possible = possible && variation.places.size() == 1 && place.size() == 4 &&
@@ -117,16 +118,16 @@ BlockEvaluator::Quick::Quick(const Study& study, const BuiltScene& scene)
 }
 
 bool BlockEvaluator::Quick::put(const std::vector<double>& values) {
-  Complaints complaints("");
+  Diagnostics diagnostics("");
   for (std::size_t j = 0; j < names.size(); ++j) {
-    if (!setParameter(names[j], values[j], model, spec, complaints)) {
+    if (!setParameter(names[j], values[j], model, spec, diagnostics)) {
       return false;
     }
   }
   return true;
 }
 
-/// Whether it makes what reading the whole scene makes.
+/// Is its result the same as that of reading the whole scene?
 bool BlockEvaluator::isQuick(const std::vector<double>& values) {
   if (!quick_->possible || !quick_->put(values)) {
     return false;
@@ -135,7 +136,7 @@ bool BlockEvaluator::isQuick(const std::vector<double>& values) {
     const SystemSpec read = one_.sceneAt(values).systems.front();
     return read.parameters == quick_->spec.parameters && read.q == quick_->spec.q &&
            read.v == quick_->spec.v && read.speed == quick_->spec.speed;
-  } catch (const Refusal&) {
+  } catch (const InputError&) {
     return false;
   }
 }
@@ -169,7 +170,7 @@ std::optional<std::vector<Outcome>> BlockEvaluator::together(std::uint64_t block
       rotors.push_back(*rotor);
       places.push_back(i);
     } catch (const std::exception&) {
-      all[i] = one_.at(values(i));  // which says why
+      all[i] = one_.at(values(i));  // which reports the reason
     }
   }
   if (rotors.empty()) {
@@ -177,7 +178,7 @@ std::optional<std::vector<Outcome>> BlockEvaluator::together(std::uint64_t block
   }
   Drive drive = scene_.driveOf(*scene_.systems[0]);
   IsotropicRotors steps(rotors, scene_.scene.stepSeconds(), highestSpeed(drive));
-  if (steps.parts() > kMostPartsSideBySide) {
+  if (steps.parts() > kMaxPartsSideBySide) {
     return std::nullopt;
   }
   const auto count =

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kPer53Bits = 1.0 / 9007199254740992.0;  // 2^-53
 
-/// What draws are for: no two uses share a stream.
+/// Purpose of a draw: each has a separate stream.
 enum Stream : std::uint32_t { kValues, kWithin, kStrata, kOrder, kScrambling };
 
-/// 64 random bits, of the seed, the use, a number's place and a point's.
+/// 64 random bits from the seed, the purpose, the index of a number and that of a point.
 std::uint64_t bits(std::uint32_t seed, Stream stream, std::size_t number, std::uint64_t point) {
   const r123::Philox4x32::ctr_type counter{{static_cast<std::uint32_t>(point),
                                             static_cast<std::uint32_t>(point >> 32U),
@@ -26,12 +26,12 @@ std::uint64_t bits(std::uint32_t seed, Stream stream, std::size_t number, std::u
   return (static_cast<std::uint64_t>(words[0]) << 32U) | words[1];
 }
 
-/// The middle of the interval that the upper 52 bits stand for: never 0, never 1.
+/// Midpoint of the interval given by the upper 52 bits: never 0, never 1.
 double uniform(std::uint64_t random) {
   return static_cast<double>(((random >> 12U) << 1U) | 1U) * kPer53Bits;
 }
 
-/// [bits], that hold every number below count.
+/// Number of bits for all numbers below count.
 unsigned widthOf(std::uint64_t count) {
   unsigned width = 0;
   while (width < 64 && ((count - 1) >> width) != 0) {
@@ -40,10 +40,10 @@ unsigned widthOf(std::uint64_t count) {
   return width;
 }
 
-/// Owen's scrambling of a coordinate: each bit is turned or not, as a random number says that is
-/// another one for every value of the bits above it. Six bits at a time, whose 63 random numbers
-/// are the bits of one draw, numbered as the nodes of a binary tree from 1 on. Sequences of up to
-/// 2^36 points have the same bits after these: there they are random.
+/// Owen's scrambling of a coordinate: each bit is flipped by a random bit that depends on all bits
+/// above it. Six bits at a time; their 63 random bits are from one draw, numbered as the nodes of a
+/// binary tree from 1 on. Sequences of up to 2^36 points have equal bits below these: there the
+/// output is random.
 std::uint64_t scrambled(std::uint64_t x, std::uint32_t seed, std::size_t number,
                         std::uint32_t replicate) {
   constexpr unsigned kGroup = 6, kGroups = 6;
@@ -74,7 +74,7 @@ std::vector<double> latinHypercube(const Design& design, std::uint32_t seed, std
   for (std::size_t j = 0; j < u.size(); ++j) {
     const std::uint64_t stratum = permuted(point, design.points, bits(seed, kStrata, j, 0));
     const auto low = static_cast<double>(stratum);
-    // Rounding takes no point out of its stratum, (s + v) / n with 0 < v < 1.
+    // Rounding must not move a point out of its stratum, (s + v) / n with 0 < v < 1.
     u[j] = std::clamp((low + uniform(bits(seed, kWithin, j, point))) / strata,
                       std::nextafter(low / strata, 1.0), std::nextafter((low + 1.0) / strata, 0.0));
   }
@@ -113,7 +113,7 @@ std::vector<double> morris(const Design& design, std::uint32_t seed, std::uint64
   std::vector<std::size_t> level(d);
   const std::vector<MorrisStep> steps = morrisSteps(design, seed, trajectory);
   for (const MorrisStep& step : steps) {
-    // The start leaves room for the one step that there will be.
+    // The start allows for the single step up or down.
     level[step.number] = bits(seed, kValues, step.number, trajectory) % (p / 2);
     level[step.number] += step.up ? 0 : p / 2;
   }
@@ -145,8 +145,8 @@ std::uint64_t permuted(std::uint64_t place, std::uint64_t count, std::uint64_t k
   if (count < 2) {
     return place;
   }
-  // Four rounds on two halves of an even number of bits, again and again until it is below count:
-  // fewer than four times on the average.
+  // Four Feistel rounds on two halves of an even number of bits, repeated until the result is below
+  // count: fewer than four times on average.
   const unsigned half = (widthOf(count) + 1) / 2;
   const std::uint64_t mask = (std::uint64_t{1} << half) - 1;
   do {
@@ -168,8 +168,8 @@ std::uint64_t permuted(std::uint64_t place, std::uint64_t count, std::uint64_t k
 
 std::vector<double> sobolPoint(std::size_t dimensions, std::uint64_t point, std::uint32_t seed,
                                std::uint32_t replicate) {
-  // Its table of direction numbers takes longer than a thousand points. Boost's sequence begins
-  // after the origin.
+  // Cached: the table of direction numbers takes longer than a thousand points. Boost's sequence
+  // starts after the origin.
   thread_local std::unique_ptr<boost::random::sobol> sequence;
   thread_local std::uint64_t next = 0;
   if (!sequence || sequence->dimension() != dimensions) {
@@ -188,8 +188,8 @@ std::vector<double> sobolPoint(std::size_t dimensions, std::uint64_t point, std:
 }
 
 std::uint64_t replicates(std::uint64_t base) {
-  constexpr std::uint64_t kMost = 16, kFewestPoints = 16;
-  return std::clamp<std::uint64_t>(base / kFewestPoints, 2, kMost);
+  constexpr std::uint64_t kMost = 16, kMinPoints = 16;
+  return std::clamp<std::uint64_t>(base / kMinPoints, 2, kMost);
 }
 
 double morrisStride(const Design& design) {

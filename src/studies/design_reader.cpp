@@ -11,18 +11,18 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kMostPoints = 1.0e9;
+constexpr double kMaxPoints = 1.0e9;
 constexpr int kUsualMorrisLevels = 4;
 
 class DesignReader {
  public:
-  DesignReader(const std::vector<Variation>& vary, Complaints& complaints)
-      : vary_(vary), complaints_(complaints) {}
+  DesignReader(const std::vector<Variation>& vary, Diagnostics& diagnostics)
+      : vary_(vary), diagnostics_(diagnostics) {}
 
   Design read(const MapReader& map) {
     if (!map.has("design")) {
-      complaints_.add("design",
-                      fmt::format("missing; must be one of {}", fmt::join(designNames(), ", ")));
+      diagnostics_.add("design",
+                       fmt::format("missing; must be one of {}", fmt::join(designNames(), ", ")));
       return design_;
     }
     const YAML::Node node = map.at("design");
@@ -32,18 +32,18 @@ class DesignReader {
     if (node.IsScalar()) {
       kind = node.Scalar();
       if (std::find(designNames().begin(), designNames().end(), kind) == designNames().end()) {
-        complaints_.add("design",
-                        fmt::format("unknown design {}{}", shown(node), hint(kind, designNames())));
+        diagnostics_.add(
+            "design", fmt::format("unknown design {}{}", shown(node), hint(kind, designNames())));
         return design_;
       }
     } else {
-      const MapReader chosen(node, "design", designNames(), "design", complaints_);
+      const MapReader chosen(node, "design", designNames(), "design", diagnostics_);
       if (!chosen.usable()) {
         return design_;
       }
       if (chosen.names().size() != 1) {
         if (node.size() != 1) {
-          complaints_.add("design", "must have exactly one design");
+          diagnostics_.add("design", "must have exactly one design");
         }
         return design_;
       }
@@ -73,14 +73,14 @@ class DesignReader {
   }
 
  private:
-  /// A whole number of points, runs or levels; nothing with a complaint.
+  /// An integer number of points, runs or levels; empty, with a diagnostic, if invalid.
   std::optional<std::uint64_t> whole(const std::string& key, const YAML::Node& node,
                                      const std::string& what, double least, double most) {
     const auto number =
         node.IsDefined() && node.IsScalar() ? parseNumber(node.Scalar()) : std::nullopt;
     if (!number || !(*number >= least) || !(*number <= most) || *number != std::floor(*number)) {
-      complaints_.add(key, fmt::format("must be {}, a whole number from {:g} to {:g}, found {}",
-                                       what, least, most, shown(node)));
+      diagnostics_.add(key, fmt::format("must be {}, a whole number from {:g} to {:g}, found {}",
+                                        what, least, most, shown(node)));
       return std::nullopt;
     }
     return static_cast<std::uint64_t>(*number);
@@ -91,29 +91,29 @@ class DesignReader {
     const auto each = static_cast<double>(indices ? design_.dimensions + 2 : 1);
     if (const auto count =
             whole("design." + kind, size, indices ? "how many base points" : "how many points", 1.0,
-                  std::floor(kMostPoints / each))) {
+                  std::floor(kMaxPoints / each))) {
       design_.base = *count;
       design_.points = *count * static_cast<std::uint64_t>(each);
     }
     const std::size_t dimensions = (indices ? 2 : 1) * design_.dimensions;
-    if ((indices || design_.kind == Design::Kind::kSobol) && dimensions > kMostSobolDimensions) {
-      complaints_.add("design." + kind, fmt::format("has up to {} dimensions, found {}",
-                                                    kMostSobolDimensions, dimensions));
+    if ((indices || design_.kind == Design::Kind::kSobol) && dimensions > kMaxSobolDimensions) {
+      diagnostics_.add("design." + kind, fmt::format("has up to {} dimensions, found {}",
+                                                     kMaxSobolDimensions, dimensions));
     }
   }
 
   void readListDesign(const YAML::Node& size) {
     if (size.IsDefined() && !size.IsNull()) {
-      complaints_.add("design.list", "must have no number: each varied parameter has its list");
+      diagnostics_.add("design.list", "must have no number: each varied parameter has its list");
     }
     const std::size_t first = vary_.front().distribution.list.size();
     for (const Variation& v : vary_) {
       if (v.distribution.kind != Distribution::Kind::kList) {
-        complaints_.add("vary." + v.path, "must be a list with the design list");
+        diagnostics_.add("vary." + v.path, "must be a list with the design list");
       } else if (v.distribution.list.size() != first && !v.distribution.list.empty()) {
-        complaints_.add("vary." + v.path,
-                        fmt::format("must have {} entries, as {} has, found {}", first,
-                                    vary_.front().path, v.distribution.list.size()));
+        diagnostics_.add("vary." + v.path,
+                         fmt::format("must have {} entries, as {} has, found {}", first,
+                                     vary_.front().path, v.distribution.list.size()));
       }
     }
     design_.points = first;
@@ -132,16 +132,16 @@ class DesignReader {
       }
       asked = *number;
     } else if (!lists) {
-      complaints_.add(
+      diagnostics_.add(
           "design",
           fmt::format("must be {{{}: LEVELS}}, because a varied parameter has no list of values",
                       kind));
       return;
     }
-    double points = 1.0;  // one at a time: the scene as it is
+    double points = 1.0;  // one_at_a_time: the nominal scene
     for (const Variation& v : vary_) {
       if (!grid && std::isnan(v.nominal)) {
-        complaints_.add(
+        diagnostics_.add(
             "vary." + v.path,
             "differs from move to move: with one_at_a_time, name one move of the drive");
       }
@@ -149,9 +149,9 @@ class DesignReader {
       const auto count = static_cast<double>(design_.levels.back());
       points = grid ? points * count : points + count;
     }
-    if (!(points <= kMostPoints)) {
-      complaints_.add("design", fmt::format("must have at most {1:g} points, found {0:g}", points,
-                                            kMostPoints));
+    if (!(points <= kMaxPoints)) {
+      diagnostics_.add(
+          "design", fmt::format("must have at most {1:g} points, found {0:g}", points, kMaxPoints));
       return;
     }
     design_.points = static_cast<std::uint64_t>(points);
@@ -160,10 +160,10 @@ class DesignReader {
   void readMorris(const YAML::Node& size) {
     std::optional<std::uint64_t> count;
     std::uint64_t levels = kUsualMorrisLevels;
-    const double most = std::floor(kMostPoints / static_cast<double>(design_.dimensions + 1));
+    const double most = std::floor(kMaxPoints / static_cast<double>(design_.dimensions + 1));
     if (size.IsDefined() && size.IsMap()) {
       const MapReader map(size, "design.morris", {"trajectories", "levels"}, "key of morris",
-                          complaints_);
+                          diagnostics_);
       count = whole("design.morris.trajectories", map.at("trajectories"), "how many trajectories",
                     1.0, most);
       if (map.has("levels")) {
@@ -174,8 +174,8 @@ class DesignReader {
       count = whole("design.morris", size, "how many trajectories", 1.0, most);
     }
     if (levels % 2 != 0) {
-      complaints_.add("design.morris.levels",
-                      fmt::format("must be even (a step is half of them), found {}", levels));
+      diagnostics_.add("design.morris.levels",
+                       fmt::format("must be even (a step is half of them), found {}", levels));
     }
     design_.levels.assign(1, static_cast<std::size_t>(levels));
     if (count) {
@@ -184,7 +184,7 @@ class DesignReader {
     }
     for (const Variation& v : vary_) {
       if (v.distribution.kind == Distribution::Kind::kList) {
-        complaints_.add(
+        diagnostics_.add(
             "vary." + v.path,
             "must be a range such as uniform (a Morris step is half of it), found a list");
       }
@@ -192,15 +192,15 @@ class DesignReader {
   }
 
   const std::vector<Variation>& vary_;
-  Complaints& complaints_;
+  Diagnostics& diagnostics_;
   Design design_;
 };
 
 }  // namespace
 
 Design readDesign(const MapReader& study, const std::vector<Variation>& vary,
-                  Complaints& complaints) {
-  return DesignReader(vary, complaints).read(study);
+                  Diagnostics& diagnostics) {
+  return DesignReader(vary, diagnostics).read(study);
 }
 
 }  // namespace whirl_twin

@@ -8,8 +8,8 @@
 
 namespace whirl_twin {
 
-/// `design` of a study, of the numbers that vary; what is wrong is complained of.
+/// Reads `design` of a study with these varied numbers; adds errors to the diagnostics.
 Design readDesign(const MapReader& study, const std::vector<Variation>& vary,
-                  Complaints& complaints);
+                  Diagnostics& diagnostics);
 
 }  // namespace whirl_twin

@@ -7,17 +7,17 @@
 #include <cmath>
 
 #include "algebra/constants.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "scene/node_reader.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr int kDeepest = 100;  // of brackets
+constexpr int kDeepest = 100;  // nesting of brackets
 constexpr std::size_t kLongest = 2000;
-constexpr double kSettled = 0.02;  // of the largest deviation, unless it is said
+constexpr double kSettled = 0.02;  // default, relative to the largest deviation
 
 const std::vector<std::string>& functionNames() {
   static const std::vector<std::string> names{"abs", "sqrt", "log"};
@@ -44,7 +44,7 @@ class ExpressionParser {
 
   void parse() {
     if (text_.size() > kLongest) {
-      throw Refusal(fmt::format("must be an expression of up to {} characters", kLongest));
+      throw InputError(fmt::format("must be an expression of up to {} characters", kLongest));
     }
     sum();
     skip();
@@ -57,8 +57,8 @@ class ExpressionParser {
   using Operation = Expression::Operation;
 
   [[noreturn]] void fail(const std::string& expected) const {
-    throw Refusal(fmt::format("must have {} at character {}, found {}", expected, at_ + 1,
-                              at_ >= text_.size() ? "the end" : quoted(text_.substr(at_))));
+    throw InputError(fmt::format("must have {} at character {}, found {}", expected, at_ + 1,
+                                 at_ >= text_.size() ? "the end" : inQuotes(text_.substr(at_))));
   }
   void skip() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) {
@@ -110,7 +110,7 @@ class ExpressionParser {
   }
   void factor() {
     if (++depth_ > kDeepest) {
-      throw Refusal(fmt::format("must be nested at most {} levels deep", kDeepest));
+      throw InputError(fmt::format("must be nested at most {} levels deep", kDeepest));
     }
     if (taken('-')) {
       factor();
@@ -186,17 +186,17 @@ class ExpressionParser {
     if (placeOf(name, reductionNames()) == reductionNames().size()) {
       std::vector<std::string> known = reductionNames();
       known.insert(known.end(), functionNames().begin(), functionNames().end());
-      throw Refusal(fmt::format("unknown function {} at character {}{}", quoted(name), begin + 1,
-                                hint(name, known)));
+      throw InputError(fmt::format("unknown function {} at character {}{}", inQuotes(name),
+                                   begin + 1, hint(name, known)));
     }
     ExpressionLeaf found{name, path(), kSettled};
     if (taken(',')) {
       if (name != "settling") {
-        throw Refusal(name + " has one argument, the quantity");
+        throw InputError(name + " has one argument, the quantity");
       }
       found.argument = number();
       if (!(found.argument > 0.0 && found.argument < 1.0)) {
-        throw Refusal("settling: the band must be > 0 and < 1, a part of the largest deviation");
+        throw InputError("settling: the band must be > 0 and < 1, a part of the largest deviation");
       }
     }
     require(')');
@@ -294,7 +294,7 @@ double Reduction::settling() const {
   while (from > 0 && std::fabs(values_[from - 1] - last_) <= argument_ * largest) {
     --from;
   }
-  // In the band at its last value only, which is its end by definition.
+  // The last value is in the band by definition: it alone does not count.
   if (from + 1 == values_.size() && values_.size() > 1) {
     return kNaN;
   }

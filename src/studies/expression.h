@@ -1,8 +1,8 @@
-// What a study measures, as it is written: a small expression over what a run publishes and what
-// linear theory says.
+// Expressions of a study's measures: over the quantities published by a run and the results of
+// linear analyses.
 //
-//   max(rotor.whirl.radius) / 2.0e-4            a run's quantity comes as one number of it
-//   critical_speeds[0] - 300                    of the analysis, and numbers that vary, as they are
+//   max(rotor.whirl.radius) / 2.0e-4            quantities of a run are reduced to one number
+//   critical_speeds[0] - 300                    results of analyses, and varied numbers
 //   settling(swing.theta, 0.05)                 within 5 % of the largest deviation from its end
 //
 //   expression = term {(+|-) term}; term = factor {(*|/) factor}; factor = [-] power
@@ -16,22 +16,22 @@
 
 namespace whirl_twin {
 
-/// A number that an expression stands on.
+/// An operand of an expression.
 struct ExpressionLeaf {
-  std::string reduction;  ///< of a run: max, rms, …; "": the number of that path itself
+  std::string reduction;  ///< of a run: max, rms, …; "": the number of that path
   std::string path;       ///< `rotor.whirl.radius`, `critical_speeds[0]`
   double argument = 0.0;  ///< of settling
 };
 
 class Expression {
  public:
-  /// Throws Refusal: "must be …, found … at character 5".
+  /// Throws InputError: "must be …, found … at character 5".
   explicit Expression(const std::string& text);
 
   const std::vector<ExpressionLeaf>& leaves() const { return leaves_; }
-  /// It is one number as it is: nothing is done with it.
+  /// It is a single operand.
   bool isLeaf() const { return steps_.size() == 1 && leaves_.size() == 1; }
-  /// With the value of each leaf.
+  /// With the values of the leaves.
   double value(const std::vector<double>& leaves) const;
 
  private:
@@ -62,13 +62,13 @@ class Expression {
 /// max, min, mean, rms, peak, range, standard_deviation, initial, final, time_of_max, settling.
 const std::vector<std::string>& reductionNames();
 
-/// A quantity of a run as one number, while it goes by.
+/// Reduces a quantity of a run to one number, sample by sample.
 class Reduction {
  public:
   Reduction(const std::string& name, double argument);
   /// The next value, at a simulated time [s]; the first is that of the start.
   void take(double time, double value);
-  /// NaN where there is none: a motion that is not within the band at its end does not settle.
+  /// NaN if undefined: a motion that is outside the band until its end does not settle.
   double result() const;
 
  private:

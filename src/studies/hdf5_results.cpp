@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "twin/durable_file.h"
 
 namespace whirl_twin {
@@ -21,9 +21,9 @@ namespace {
 
 constexpr hsize_t kChunk = 16384;  // rows
 constexpr unsigned kCompression = 4;
-constexpr std::size_t kGrowth = 4096;  // bytes, by which the file in memory grows
+constexpr std::size_t kGrowth = 4096;  // bytes, growth of the file in memory
 
-/// What HDF5 gives: closed with it.
+/// An HDF5 identifier; closed by the destructor.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
@@ -64,7 +64,7 @@ Handle vectorSpace(hsize_t size) {
   return {H5Screate_simple(1, &size, nullptr), H5Sclose};
 }
 
-/// UTF-8, of so many bytes, filled up with zeros.
+/// UTF-8 of a fixed number of bytes, zero padded.
 Handle textType(std::size_t size) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   check(H5Tset_size(type, std::max<std::size_t>(size, 1)));
@@ -79,7 +79,7 @@ void writeAttribute(hid_t of, const char* name, hid_t type, const Handle& space,
 }
 
 void attach(hid_t of, const char* name, const std::string& text) {
-  std::string bytes = text;  // an empty one has a byte, too
+  std::string bytes = text;  // also an empty text has a byte
   bytes.resize(std::max<std::size_t>(bytes.size(), 1));
   writeAttribute(of, name, textType(text.size()), scalar(), bytes.data());
 }
@@ -101,21 +101,21 @@ void attach(hid_t of, const char* name, const Estimate& estimate) {
   attachNumbers(of, name, std::vector<double>{estimate.value, estimate.low, estimate.high});
 }
 
-/// Without the time at which it was made.
+/// Without creation time.
 Handle makeGroup(hid_t in, const std::string& name) {
   const Handle how = properties(H5P_GROUP_CREATE);
   check(H5Pset_obj_track_times(how, false));
   return {H5Gcreate2(in, name.c_str(), H5P_DEFAULT, how, H5P_DEFAULT), H5Gclose};
 }
 
-/// A table's column, written a chunk at a time.
+/// A column of a table, written in chunks.
 class Column {
  public:
   Column(hid_t in, const std::string& name, hid_t type)
       : type_(H5Tcopy(type), H5Tclose), size_(H5Tget_size(type)), data_(make(in, name)) {}
 
   hid_t data() const { return data_; }
-  /// The next row: as many bytes as its type has.
+  /// The next row: as many bytes as the type has.
   void add(const void* row) {
     const auto* const bytes = static_cast<const char*>(row);
     rows_.insert(rows_.end(), bytes, bytes + size_);
@@ -163,7 +163,7 @@ class Column {
   hsize_t written_ = 0;
 };
 
-/// A column of its own for every number that varies.
+/// A column for each varied number.
 std::vector<Column> numbersThatVary(hid_t in, const Study& study) {
   const Handle group = makeGroup(in, "vary");
   std::vector<Column> columns;
@@ -196,7 +196,7 @@ std::vector<Column> measures(hid_t in, const Study& study, const Answers& answer
   return columns;
 }
 
-/// Of the longest reason.
+/// Size of the longest reason.
 std::size_t reasonSize(const ResultFolder& folder) {
   std::size_t size = 1;
   folder.forEachPoint(
@@ -302,7 +302,7 @@ void writeSensitivities(hid_t file, const Study& study, const Answers& answers) 
   }
 }
 
-/// A file in memory: what is written is then all of it, or nothing.
+/// A file in memory, so that it is written completely or not at all.
 Handle fileInMemory() {
   const Handle access = properties(H5P_FILE_ACCESS);
   check(H5Pset_fapl_core(access, kGrowth, false));
@@ -313,7 +313,7 @@ Handle fileInMemory() {
   return {H5Fcreate("results.h5", H5F_ACC_TRUNC, creation, access), H5Fclose};
 }
 
-/// Its bytes. (H5Fget_file_image() leaves a wrong checksum in a superblock of this format.)
+/// Its content. (H5Fget_file_image() gives a wrong superblock checksum for this format.)
 std::string imageOf(hid_t file) {
   check(H5Fflush(file, H5F_SCOPE_GLOBAL));
   hsize_t size = 0;

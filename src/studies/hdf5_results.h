@@ -1,5 +1,5 @@
-// A study's results in one HDF5 file, results.h5 of their folder: the tables, what they say
-// together, and the texts they come of.
+// Results of a study in one HDF5 file, results.h5 in its folder: tables, statistics, and the texts
+// of study and scene.
 //
 //   /            attributes study, scene: their files' texts; design, points, failures
 //   /point       numbers of the points that did not fail [n]
@@ -11,7 +11,7 @@
 //   /sobol/NAME/PATH   attributes first, total: value, low, high; /sobol/NAME: rows, left_out
 //   /morris/NAME/PATH  attributes mean, mean_magnitude, standard_deviation, likewise
 //
-// Chunked and compressed by gzip. Nothing in it tells of time, place or workers.
+// Chunked, with gzip compression. The content is independent of time, place and workers.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@
 
 namespace whirl_twin {
 
-/// Writes it, of a folder all of whose blocks are there. Throws RunFailure where it cannot be
-/// written, and where this program was built without HDF5.
+/// Writes the file; all blocks must be finished. Throws RunFailure if it cannot be written, or the
+/// program was built without HDF5.
 void writeHdf5Results(const Study& study, const ResultFolder& folder, const Answers& answers);
 
 }  // namespace whirl_twin

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "studies/alarm_watch.h"
 #include "studies/analysed_numbers.h"
 #include "studies/published_quantities.h"
@@ -31,23 +31,23 @@ bool isTimed(const Study& study) {
 
 class MeasureReader {
  public:
-  MeasureReader(const BuiltScene& scene, Study& study, Complaints& complaints)
-      : scene_(scene), study_(study), complaints_(complaints) {}
+  MeasureReader(const BuiltScene& scene, Study& study, Diagnostics& diagnostics)
+      : scene_(scene), study_(study), diagnostics_(diagnostics) {}
 
   void readMeasures(const MapReader& map) {
     if (!map.has("measure")) {
-      complaints_.add("measure",
-                      "missing; must name the measures: {peak: "
-                      "max(SYSTEM.whirl.radius)}");
+      diagnostics_.add("measure",
+                       "missing; must name the measures: {peak: "
+                       "max(SYSTEM.whirl.radius)}");
       return;
     }
-    const MapReader measures(map.at("measure"), "measure", {}, "", complaints_);
+    const MapReader measures(map.at("measure"), "measure", {}, "", diagnostics_);
     if (measures.usable() && measures.names().empty()) {
-      complaints_.add("measure", "must name a measure");
+      diagnostics_.add("measure", "must name a measure");
     }
     for (const std::string& name : measures.names()) {
       if (!isLegalName(name)) {
-        complaints_.add(
+        diagnostics_.add(
             measures.key(name),
             fmt::format("the name must have at most {} letters, digits and _, a letter first",
                         kMaxNameLength));
@@ -61,12 +61,12 @@ class MeasureReader {
         checkLeaves(measures.key(name), measure.expression);
         measure.unit = unitOf(measure);
         study_.measures.push_back(measure);
-      } catch (const Refusal& error) {
-        complaints_.add(measures.key(name), error.what());
+      } catch (const InputError& error) {
+        diagnostics_.add(measures.key(name), error.what());
       }
     }
     if (!study_.duration && isTimed(study_) && map.has("run")) {
-      complaints_.add("run.duration", "missing; needed in s for measures of a run");
+      diagnostics_.add("run.duration", "missing; needed in s for measures of a run");
     }
   }
 
@@ -78,11 +78,11 @@ class MeasureReader {
     for (const Measure& measure : study_.measures) {
       names.push_back(measure.name);
     }
-    const MapReader require(map.at("require"), "require", names, "measure", complaints_);
+    const MapReader require(map.at("require"), "require", names, "measure", diagnostics_);
     for (const std::string& name : require.names()) {
       const auto place = std::find(names.begin(), names.end(), name);
       if (place == names.end()) {
-        continue;  // its measure has been complained of
+        continue;  // its measure has an error
       }
       const YAML::Node node = require.at(name);
       const bool several = node.IsSequence() && node.size() > 0;
@@ -103,8 +103,8 @@ class MeasureReader {
     for (const ExpressionLeaf& leaf : expression.leaves()) {
       if (!leaf.reduction.empty()) {
         if (published.count(leaf.path) == 0) {
-          complaints_.add(key, fmt::format("must be published by a run, found {}{}",
-                                           quoted(leaf.path), nearIn(leaf.path, names)));
+          diagnostics_.add(key, fmt::format("must be published by a run, found {}{}",
+                                            inQuotes(leaf.path), nearIn(leaf.path, names)));
         }
         continue;
       }
@@ -114,7 +114,7 @@ class MeasureReader {
         continue;
       }
       if (published.count(leaf.path) > 0) {
-        complaints_.add(
+        diagnostics_.add(
             key, fmt::format("{} changes during a run: reduce it to one number, such as max({})",
                              leaf.path, leaf.path));
         continue;
@@ -126,12 +126,12 @@ class MeasureReader {
       for (const Variation& v : study_.vary) {
         known.push_back(v.path);
       }
-      complaints_.add(
-          key, fmt::format("unknown quantity {}{}", quoted(leaf.path), nearIn(leaf.path, known)));
+      diagnostics_.add(
+          key, fmt::format("unknown quantity {}{}", inQuotes(leaf.path), nearIn(leaf.path, known)));
     }
   }
 
-  /// Of one number as it is.
+  /// Unit of a measure that is a single operand.
   std::string unitOf(const Measure& measure) const {
     const std::vector<ExpressionLeaf>& leaves = measure.expression.leaves();
     if (leaves.size() != 1 || !measure.expression.isLeaf()) {
@@ -179,21 +179,21 @@ class MeasureReader {
         return;
       }
     }
-    complaints_.add(key, fmt::format("must be \"< LIMIT\", \"<= LIMIT\", \"> LIMIT\" or \">= "
-                                     "LIMIT\", found {}",
-                                     shown(node)));
+    diagnostics_.add(key, fmt::format("must be \"< LIMIT\", \"<= LIMIT\", \"> LIMIT\" or \">= "
+                                      "LIMIT\", found {}",
+                                      shown(node)));
   }
 
   const BuiltScene& scene_;
   Study& study_;
-  Complaints& complaints_;
+  Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
 void readMeasures(const MapReader& map, const BuiltScene& scene, Study& study,
-                  Complaints& complaints) {
-  MeasureReader reader(scene, study, complaints);
+                  Diagnostics& diagnostics) {
+  MeasureReader reader(scene, study, diagnostics);
   reader.readMeasures(map);
   reader.readRequirements(map);
 }

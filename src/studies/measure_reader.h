@@ -1,4 +1,4 @@
-// Reads what a study measures of each point, and what it requires of that.
+// Reads the measures and requirements of a study.
 #pragma once
 
 #include "scene/built_scene.h"
@@ -7,9 +7,9 @@
 
 namespace whirl_twin {
 
-/// `measure` and `require` of a study whose scene, run and variations have been read, into it; what
-/// is wrong is complained of.
+/// Reads `measure` and `require` into a study whose scene, run and variations have been read; adds
+/// errors to the diagnostics.
 void readMeasures(const MapReader& map, const BuiltScene& scene, Study& study,
-                  Complaints& complaints);
+                  Diagnostics& diagnostics);
 
 }  // namespace whirl_twin

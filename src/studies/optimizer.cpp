@@ -11,15 +11,15 @@
 #include <utility>
 
 #include "algebra/constants.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
 namespace {
 
 constexpr double kFirstStep = 0.2;  // of each range
-constexpr int kMostRestarts = 20;
-constexpr double kGain = 1.0e-6;  // of the spread of what was seen: less is no better point
+constexpr int kMaxRestarts = 20;
+constexpr double kGain = 1.0e-6;  // minimum gain, relative to the spread of all values
 
 nlopt::algorithm algorithmOf(const std::string& method) {
   return method == "bobyqa"   ? nlopt::LN_BOBYQA
@@ -60,17 +60,17 @@ class Search {
       endWith(search, parts);
       const bool local = asked_.method == "bobyqa" || asked_.method == "cobyla";
       for (int k = 0; local && findsBetter(parts); ++k) {
-        if (k == kMostRestarts) {
+        if (k == kMaxRestarts) {
           found_.converged = false;
           found_.ended = fmt::format(
               "better points were found near each of the {} end points: the optimum lies along a "
               "ridge (`method: crs`)",
-              kMostRestarts + 1);
+              kMaxRestarts + 1);
           break;
         }
         endWith(search, parts);
       }
-    } catch (const nlopt::forced_stop&) {  // why, has been said
+    } catch (const nlopt::forced_stop&) {  // the reason has been recorded
     }
     if (error_) {
       std::rethrow_exception(error_);
@@ -81,7 +81,7 @@ class Search {
  private:
   struct Seen {
     Outcome outcome = {};
-    double cost = 0.0;  // what is made least; finite
+    double cost = 0.0;  // to be minimized; finite
   };
   struct Constraint {
     Search* search;
@@ -92,7 +92,7 @@ class Search {
                           void* self) {
     return static_cast<Search*>(self)->at(parts).cost;
   }
-  /// At most 0 where the requirement holds.
+  /// At most 0 if the requirement is met.
   static double constraint(const std::vector<double>& parts, std::vector<double>& /*gradient*/,
                            void* of) {
     const auto& [search, requirement] = *static_cast<const Constraint*>(of);
@@ -107,7 +107,7 @@ class Search {
     return std::clamp(below ? beyond : -beyond, -1.0e6, 1.0e6);
   }
 
-  /// Where the scene is, if that is within the range; else its middle.
+  /// Nominal value, if within the range; else the middle.
   static double startOf(const Variation& variation) {
     const Distribution& d = variation.distribution;
     if (!(variation.nominal >= d.smallest() && variation.nominal <= d.largest())) {
@@ -138,7 +138,7 @@ class Search {
     return values;
   }
 
-  /// Objective and requirements are asked for one after the other: a point is run once.
+  /// Objective and requirements are evaluated in turn at the same point: it is run once.
   const Seen& at(const std::vector<double>& parts) {
     if (parts == last_) {
       return seen_;
@@ -156,7 +156,7 @@ class Search {
     double cost = failed ? std::nan("") : seen.outcome.measures[asked_.measure];
     cost = asked_.maximize ? -cost : cost;
     if (std::isnan(cost) || cost == kInfinity) {
-      // Worse than any, and still a number: the models of some methods take no other.
+      // Larger than all others, but finite, as required by the models of some methods.
       seen.cost = worst_ + (worst_ - best_) + std::fabs(worst_);
       return remember(parts, seen);
     }
@@ -178,7 +178,7 @@ class Search {
     any_ = true;
     return remember(parts, seen);
   }
-  /// What is thrown goes around NLopt, which would make a failure of its own of it.
+  /// Exceptions bypass NLopt, which would convert them into a failure.
   Outcome evaluated(const std::vector<double>& values) {
     try {
       Outcome outcome = evaluator_.at(values);
@@ -223,9 +223,9 @@ class Search {
     }
   }
 
-  /// Methods that model the measure by a plane or a quadratic stop on a ridge, as where two roots
-  /// meet: from there only few directions lead up. Looks along random ones from the best point, and
-  /// goes where it is better.
+  /// Local methods with linear or quadratic models stop on a ridge, for instance where two roots
+  /// coincide: only few directions improve the measure there. Searches random directions from the
+  /// best point for a better one.
   bool findsBetter(std::vector<double>& parts) {
     if (best_parts_.empty()) {
       return false;
@@ -257,11 +257,11 @@ class Search {
   const Optimization& asked_;
   PointEvaluator evaluator_;
   const std::function<void(std::uint64_t)>& done_;
-  std::vector<double> last_;        // where it looked last
-  std::vector<double> best_parts_;  // of the best that meets what is required
+  std::vector<double> last_;        // last evaluated point
+  std::vector<double> best_parts_;  // best point that meets the requirements
   std::mt19937_64 random_{study_.seed};
   std::normal_distribution<double> normal_;
-  Seen seen_;  // what was there
+  Seen seen_;  // result there
   Optimum found_;
   double best_ = 0.0, worst_ = 0.0, best_allowed_ = 0.0;
   bool any_ = false;

@@ -1,14 +1,14 @@
-// Looks for the numbers at which a measure is least, or greatest, among those that meet what is
-// required: by NLopt (S. G. Johnson), over the evaluator of points. No derivatives are asked for.
+// Minimizes or maximizes a measure over varied numbers, subject to requirements, by derivative-free
+// methods of NLopt (S. G. Johnson) and the evaluator of points.
 //
 //   bobyqa   quadratic models in a trust region, no requirements (M. J. D. Powell, 2009)
 //   cobyla   linear models of measure and requirements (Powell, 1994)
 //   crs      controlled random search over the whole range, no requirements (Kaelo & Ali, 2006)
 //   isres    evolution over the whole range, with requirements (Runarsson & Yao, 2005)
 //
-// The first two go down from where the scene is, and find the valley that they start in. Numbers
-// are searched in parts of their ranges, of logarithms where they vary so. The same study has the
-// same answer: randomness is of its seed.
+// The first two are local and start from the nominal scene. Numbers are normalized to their ranges,
+// logarithmically for log-uniform ones. Results are reproducible: random numbers follow from the
+// seed.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +22,15 @@
 namespace whirl_twin {
 
 struct Optimum {
-  std::vector<double> start;  ///< values of all that varies, where it began
+  std::vector<double> start;  ///< start values of all varied numbers
   Outcome at_start;
-  /// Of the best point that meets all requirements; empty: none was found that does.
+  /// Best point that meets all requirements; empty: none.
   std::vector<double> values;
   std::vector<double> measures;
   std::uint64_t evaluations = 0;
-  std::uint64_t failures = 0;  ///< of them
+  std::uint64_t failures = 0;  ///< failed ones of them
   bool converged = false;
-  std::string ended;  ///< why
+  std::string ended;  ///< reason of the end
 };
 
 /// done(evaluations) is called after each. Throws Interrupted.

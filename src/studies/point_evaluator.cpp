@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "accuracy/step_choice.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "realtime/denormals.h"
 #include "scene/scene_reader.h"
 #include "scene/yaml_file.h"
@@ -21,22 +21,22 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kStopCheckSteps = 1024;  // steps from one look at `stop` to the next
+constexpr std::int64_t kStopCheckSteps = 1024;  // steps between checks of `stop`
 
-/// A reduction that follows a run, and where its result goes.
+/// A reduction during a run, and the place of its result.
 struct Followed {
   PublishedQuantity quantity;
   Reduction reduction;
   double* result;
 };
 
-/// Alarms of a type, and where their number goes.
+/// Alarms of a type, and the place of their number.
 struct Counted {
   std::string type;
   double* result;
 };
 
-/// On one line.
+/// Replaces line breaks.
 std::string oneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ';');
   return text;
@@ -100,7 +100,7 @@ void PointEvaluator::simulate(const Scene& scene, std::vector<std::vector<double
       }
       const auto found = published.find(asked[i].path);
       if (found == published.end()) {
-        throw Refusal(fmt::format("has no {} with these parameters", asked[i].path));
+        throw InputError(fmt::format("has no {} with these parameters", asked[i].path));
       }
       followed.push_back(
           {found->second, Reduction(asked[i].reduction, asked[i].argument), &leaves[k][i]});
@@ -113,7 +113,7 @@ void PointEvaluator::simulate(const Scene& scene, std::vector<std::vector<double
     alarms.emplace(twin, study_.alarms);
   }
   QuantityReader reader(twin);
-  const DenormalsToZero denormals_to_zero;  // as `twin simulate` does: the same numbers
+  const DenormalsToZero denormals_to_zero;  // as `twin simulate`: the same numbers
   for (std::int64_t step = 0; step <= steps; ++step) {
     if (step % kStopCheckSteps == 0 && stop_.load(std::memory_order_relaxed)) {
       throw Interrupted();

@@ -1,4 +1,4 @@
-// Runs one point of a study: the scene with the point's numbers, simulated, analysed, measured.
+// Evaluates a point of a study: the scene with its numbers, simulated, analysed, measured.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -12,38 +12,38 @@
 
 namespace whirl_twin {
 
-/// What became of a point.
+/// Result of a point.
 struct Outcome {
-  std::vector<double> measures;  ///< in the study's order; empty where it failed
-  std::string failure;           ///< why it failed; "": it did not
+  std::vector<double> measures;  ///< in the study's order; empty if it failed
+  std::string failure;           ///< reason; "": it did not fail
 };
 
-/// The evaluation was ended from outside.
+/// The evaluation was interrupted from outside.
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// How `integrator: auto` steps the systems of a study: found out once, of the scene as it is, so
-/// that it is the same for every point on every machine.
+/// Methods selected by `integrator: auto` for the systems of a study: selected once, for the
+/// nominal scene, so that they are the same for every point on every machine.
 struct StepsChosen {
   struct Choice {
     std::string integrator;
     int substeps = 1;
   };
-  std::vector<Choice> choices;  ///< of each system; "": as it says itself
+  std::vector<Choice> choices;  ///< of each system; "": its own setting
 };
 
-/// Takes up to a second. Nothing is looked for in a study that runs nothing.
+/// Takes up to a second. Selects nothing for a study without runs.
 StepsChosen chooseSteps(const Study& study);
 
-/// Of one thread.
+/// For one thread.
 class PointEvaluator {
  public:
-  /// Both outlive it, and so does `stop`, which ends an evaluation.
+  /// Study and steps must outlive it, and so must `stop`, which interrupts an evaluation.
   PointEvaluator(const Study& study, const StepsChosen& steps, const std::atomic<bool>& stop);
 
-  /// With the values of Study::vary. Whatever is wrong with a point is its failure and no
+  /// At the values of Study::vary. Errors of a point are reported as its failure, not as an
   /// exception. Throws Interrupted.
   Outcome at(const std::vector<double>& values);
 
@@ -57,7 +57,7 @@ class PointEvaluator {
   const Study& study_;
   const StepsChosen& steps_;
   const std::atomic<bool>& stop_;
-  YAML::Node tree_;  // this thread's own: yaml-cpp's are shared as they are copied
+  YAML::Node tree_;  // a separate copy per thread: yaml-cpp nodes share memory
 };
 
 }  // namespace whirl_twin

@@ -1,10 +1,10 @@
-// What a run publishes that a study can measure, by its name.
+// Quantities published by a run that a study can measure, by name.
 //
 //   rotor.x, rotor.x_rate                        coordinates and rates of a system
 //   rotor.whirl.radius, rotor.whirl.x, .y        of a rotor, and of its further stations
 //                                                (`rotor_node_3.whirl.radius`) [m]
-//   rotor.whirl.vibration                        likewise: the amplitude over a revolution, without
-//                                                sag, that alarms go by (WhirlVibration) [m]
+//   rotor.whirl.vibration                        likewise: amplitude over a revolution, without
+//                                                sag, used for alarms (WhirlVibration) [m]
 //   rotor.kinetic, rotor.potential, rotor.energy [J]
 //   shaft.speed, shaft.acceleration              of a drive [rad/s], [rad/s^2]
 #pragma once
@@ -37,7 +37,7 @@ struct PublishedQuantity {
     kAcceleration
   };
   Kind kind = Kind::kCoordinate;
-  std::size_t owner = 0;  ///< place of the system, or of the drive
+  std::size_t owner = 0;  ///< index of the system, or of the drive
   std::size_t place = 0;  ///< of the coordinate, or of the station
   std::string unit;
 
@@ -46,14 +46,14 @@ struct PublishedQuantity {
 
 std::map<std::string, PublishedQuantity> publishedQuantities(const BuiltScene& scene);
 
-/// Reads quantities of a twin where it stands. The twin outlives it.
+/// Reads quantities of a twin. The twin must outlive it.
 class QuantityReader {
  public:
   explicit QuantityReader(const Twin& twin);
-  /// Takes the twin's present state.
+  /// Reads the twin's current state.
   void look();
-  /// NaN: it is not known yet, as a vibration before the first revolution has ended. To be asked
-  /// for after each look().
+  /// NaN: not known yet, such as a vibration before the end of the first revolution. Must be called
+  /// after each look().
   double value(const PublishedQuantity& quantity);
 
  private:
@@ -65,7 +65,7 @@ class QuantityReader {
   std::vector<std::vector<Station>> stations_;  // of each system
   struct Vibration {
     WhirlVibration followed;
-    std::int64_t step = -1;  // that it has taken last
+    std::int64_t step = -1;  // last step processed
     double amplitude = 0.0;  // [m]
   };
   std::map<std::pair<std::size_t, std::size_t>, Vibration> vibrations_;  // by system and station

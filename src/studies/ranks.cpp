@@ -13,17 +13,17 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kAsk = 1;    // to the first: how many points this process has run
-constexpr int kLeave = 2;  // likewise, and no more is asked for
-constexpr int kDealt = 3;  // from it: the block, or kNone
+constexpr int kAsk = 1;    // to the first: number of points run by this process
+constexpr int kLeave = 2;  // likewise, and no further request
+constexpr int kDealt = 3;  // reply: the block, or kNone
 constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
-/// MPI's own waiting takes a whole core.
+/// Polling period; blocking MPI calls use a whole core.
 constexpr std::chrono::microseconds kNap{200};
 
 }  // namespace
 
 Ranks::Ranks() {
-  int provided = 0;  // calls come from several threads, never from two at a time
+  int provided = 0;  // calls from several threads, one at a time
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);

@@ -1,7 +1,7 @@
-// Many processes at one study, on one machine or many, started by mpirun or srun (MPI). The first
-// deals the blocks out as they are asked for; each runs what it is dealt on threads of its own and
-// writes what it has finished into the folder, which all of them see. A process that dies ends them
-// all: finished blocks are on the disk, and the same command goes on.
+// Distributes a study over MPI processes on one or more machines, started by mpirun or srun. The
+// first process deals blocks on request; each runs them on its own threads and writes finished
+// blocks into the folder, which must be shared. If a process dies all are terminated: finished
+// blocks are on the disk, and the same command resumes the study.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace whirl_twin {
 
-/// Of this process's life, once.
+/// One instance per process.
 class Ranks {
  public:
   Ranks();
@@ -29,17 +29,17 @@ class Ranks {
   bool first() const { return rank_ == 0; }
   /// "rank 3 on host"
   std::string name() const;
-  /// The others wait in here for the first.
+  /// Barrier: the others wait here for the first process.
   void letTheFirstGoFirst();
-  /// Ends all of them, with this exit status.
+  /// Terminates all processes with this exit status.
   [[noreturn]] void end(int status);
 
-  /// In the first: runs these blocks with the others. `progress` is that of all of them. Returns
-  /// when every one has ended; throws as sweep().
+  /// In the first process: runs these blocks with the others; `progress` covers all of them.
+  /// Returns when all have ended; throws as sweep().
   void lead(const Study& study, const ResultFolder& folder, unsigned workers,
             const std::vector<std::uint64_t>& blocks, std::atomic<bool>& stop,
             const SweepProgress& progress);
-  /// In the others: runs what the first deals. Throws as sweep().
+  /// In the other processes: runs the blocks dealt by the first. Throws as sweep().
   void work(const Study& study, const ResultFolder& folder, unsigned workers,
             std::atomic<bool>& stop);
 

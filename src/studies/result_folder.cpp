@@ -13,7 +13,7 @@
 
 #include "algebra/constants.h"
 #include "messages/checksum.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "scene/yaml_file.h"
 #include "twin/durable_file.h"
 
@@ -22,9 +22,9 @@ namespace whirl_twin {
 namespace {
 
 const std::string kEnd = "# end, checksum ";  // CRC-32C of all before, and a line feed
-const std::string kFailed = "!";              // before the line of a point that failed
+const std::string kFailed = "!";              // prefix of the line of a failed point
 
-/// Nothing where it cannot be read.
+/// Empty if it cannot be read.
 std::optional<std::string> fileContents(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
@@ -37,7 +37,7 @@ std::string endOf(std::string_view rows) {
   return fmt::format("{}{:08x}\n", kEnd, crc32c(rows.data(), rows.size()));
 }
 
-/// RFC 4180.
+/// A cell quoted by RFC 4180.
 std::string quotedCell(const std::string& text) {
   std::string cell = "\"";
   for (const char c : text) {
@@ -49,7 +49,7 @@ std::string quotedCell(const std::string& text) {
   return cell + "\"";
 }
 
-/// Undoes it.
+/// The inverse.
 std::string unquoted(std::string_view cell) {
   std::string text;
   for (std::size_t i = 1; i + 1 < cell.size(); ++i) {
@@ -59,7 +59,7 @@ std::string unquoted(std::string_view cell) {
   return text;
 }
 
-/// The last cells of a row, which is cut before them.
+/// Removes the last cells of a row and returns their numbers.
 std::vector<double> takeNumbers(std::string_view& row, std::size_t count) {
   std::vector<double> numbers(count, kNaN);
   for (std::size_t k = count; k-- > 0;) {
@@ -71,8 +71,8 @@ std::vector<double> takeNumbers(std::string_view& row, std::size_t count) {
   return numbers;
 }
 
-/// Not there, empty, or what a run left that was killed before it had written its manifest, or that
-/// is writing it just now.
+/// True if the folder is missing, empty, or left by a run that was killed before it had written its
+/// manifest (or is writing it now).
 bool isOurs(const std::string& folder) {
   static const std::vector<std::string> known{"blocks", "study.yaml", "scene.yaml",
                                               "manifest.yaml"};
@@ -120,7 +120,7 @@ ResultFolder::ResultFolder(const std::string& path, const Study& study, bool mix
     compare(mixed);
   } else {
     if (!isOurs(path_)) {
-      throw Refusal(fmt::format(
+      throw InputError(fmt::format(
           "{}: must be an empty folder or one with results of a study, found other files", path_));
     }
     steps_ = chooseSteps(study_);
@@ -155,7 +155,7 @@ bool ResultFolder::make() {
   }
   YAML::Emitter text;
   text << manifest;
-  DurableFile last(path_ + "/manifest.yaml");  // with it the folder is whole
+  DurableFile last(path_ + "/manifest.yaml");  // written last: the folder is complete
   last.add(std::string(text.c_str()) + "\n");
   return last.finishUnlessThere();
 }
@@ -166,7 +166,7 @@ void ResultFolder::compare(bool mixed) {
     const YAML::Node manifest = readYamlFile(file, "a manifest", "a study");
     if (manifest["study"].as<std::string>() != fmt::format("{:016x}", study_.hash) ||
         manifest["block"].as<std::uint64_t>() != study_.block) {
-      throw Refusal(
+      throw InputError(
           fmt::format("{}: has the results of another study, or of another version of this study "
                       "or its scene: use another folder",
                       path_));
@@ -184,7 +184,7 @@ void ResultFolder::compare(bool mixed) {
     compareOne("compiler", origin.compiler);
     compareOne("processor", origin.processor);
     if (!differences.empty() && !mixed) {
-      throw Refusal(
+      throw InputError(
           fmt::format("{}: its results come from {}, and may differ in their last digits from new "
                       "ones: use another folder, or --mixed",
                       path_, differences));
@@ -194,7 +194,7 @@ void ResultFolder::compare(bool mixed) {
           {entry["integrator"].as<std::string>(), entry["substeps"].as<int>()});
     }
   } catch (const YAML::Exception&) {
-    throw Refusal(fmt::format("{}: must be the manifest of a study", file));
+    throw InputError(fmt::format("{}: must be the manifest of a study", file));
   }
 }
 
@@ -348,7 +348,7 @@ StudyTable ResultFolder::merge() const {
   return table;
 }
 
-/// What was being written when a run was killed.
+/// Removes temporary files of a killed run.
 void ResultFolder::removeUnfinished() const {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(path_ + "/blocks", error)) {

@@ -17,7 +17,7 @@ namespace {
 
 using Numbers = std::map<std::string, NamedNumber>;
 
-/// "bearings[0].kxx" below a place.
+/// The path "bearings[0].kxx" below a place.
 SceneNumber below(SceneNumber place, const std::string& path) {
   std::string name;
   const auto end = [&] {
@@ -43,7 +43,7 @@ SceneNumber below(SceneNumber place, const std::string& path) {
   return place;
 }
 
-/// Every number that stands in the tree, by its full key.
+/// All numbers in the tree, by their full keys.
 void addScalars(const YAML::Node& node, const SceneNumber& place, const std::string& path,
                 Numbers& all) {
   if (node.IsScalar()) {
@@ -90,7 +90,7 @@ void addSystem(const SystemSpec& spec, std::size_t place, Numbers& all) {
                 NamedNumber{{below(root, "parameters.speed")}, *spec.speed, "rad/s", "", place});
   }
   if (spec.rest && spec.rest->asked) {
-    return;  // its start is no number of the scene
+    return;  // its start is computed
   }
   const std::vector<CoordinateInfo> coordinates = spec.setup->made.dynamics->coordinates();
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
@@ -138,7 +138,7 @@ void addDrive(const DriveSpec& drive, Numbers& all) {
   }
 }
 
-/// By the short name of what they belong to.
+/// Adds shorter paths without the prefix of `owner`.
 void addShort(const std::string& owner, const std::string& name, Numbers& all) {
   const std::string prefix = owner + "." + name + ".";
   std::map<std::string, NamedNumber> more;

@@ -1,13 +1,13 @@
-// The numbers of a scene's file that a study may vary, by their paths. A number stands in the tree
-// of the file, or is left to its default there; to change it is to write it into the tree, and
-// what reads scenes (scene_reader.h) does the rest: it checks, and fills in what hangs on it.
+// Paths of the numbers in a scene's file that a study may vary. A number is in the tree of the
+// file, or has its default value; it is changed by writing it into the tree, and the scene's reader
+// (scene_reader.h) checks it and computes all that depends on it.
 //
-//   rotor.stiffness, rotor.bearings[0].kxx      parameters of a system, or of a controller
-//   rotor.initial.x, rotor.initial.x_rate       where a system starts
+//   rotor.stiffness, rotor.bearings[0].kxx      parameters of a system or a controller
+//   rotor.initial.x, rotor.initial.x_rate       initial state of a system
 //   rotor.speed                                 of a system without a drive
 //   shaft.speed, shaft.profile[1].speed         keys of a drive
 //   shaft.max_acceleration                      of all its moves; likewise max_jerk and dwell
-//   systems.rotor.tolerance, gravity            any number that stands in the file, by its full key
+//   systems.rotor.tolerance, gravity            any number in the file, by its full key
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -22,26 +22,26 @@
 
 namespace whirl_twin {
 
-/// Keys and places in lists, from the root of the tree.
+/// Keys and list indices from the root of the tree.
 using SceneNumber = std::vector<std::variant<std::string, std::size_t>>;
 
-/// What a path stands for.
+/// A number with a path.
 struct NamedNumber {
   std::vector<SceneNumber> places;  ///< one, or several that are varied together
-  double value = 0.0;               ///< that the scene gives; NaN: of several, not one
+  double value = 0.0;               ///< nominal; NaN: several different ones
   std::string unit = "-";
-  /// Of a parameter that may not have any value: path in its system, and place of that in the scene
+  /// Of a parameter with a restricted range: path in its system, and index of that in the scene
   std::string parameter = "";
   std::size_t system = 0;
 };
 
-/// All of them by their paths. The scene is the one that the tree is of.
+/// All numbers by path. The tree must be that of the scene.
 std::map<std::string, NamedNumber> numbersOf(const YAML::Node& tree, const Scene& scene);
 
-/// A tree that shares nothing with another, nor one of its parts with another (anchors).
+/// A deep copy, also of nodes shared within the tree (anchors).
 YAML::Node separated(const YAML::Node& tree);
 
-/// Writes a number there; maps on the way that are not there are made.
+/// Writes a number at a place; missing maps on the way are created.
 void put(YAML::Node tree, const SceneNumber& place, double value);
 
 }  // namespace whirl_twin

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSqrt2 = 1.4142135623730951;
 
-/// From low to high, either met exactly.
+/// From low to high; both ends are exact.
 double between(double low, double high, double u) {
   return std::clamp(low + u * (high - low), low, high);
 }

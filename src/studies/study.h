@@ -1,5 +1,5 @@
-// A study as it was asked for: which numbers of a scene vary, by which design, what is run,
-// measured and required. Made by readStudy() only.
+// A study: which numbers of a scene vary, by which design, what is run, measured and required. Made
+// by readStudy() only.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,9 @@
 
 namespace whirl_twin {
 
-// How one number varies over the points of a study, by its quantiles: value(u) is the number below
-// which a part u of the distribution lies, so that a design of points in the unit cube is one of
-// values. A list has its entries, all alike likely, in the order given.
+// Distribution of a number over the points of a study, by its quantile function: value(u) is the
+// number with the cumulative probability u, which maps a design in the unit cube to values. The
+// entries of a list are equally likely, in the given order.
 
 struct Distribution {
   enum class Kind { kUniform, kLogUniform, kNormal, kList };
@@ -31,41 +31,41 @@ struct Distribution {
 
   /// u: 0 < u < 1; for all but a normal distribution also 0 and 1.
   double value(double u) const;
-  /// Value k of n that stand for it on a grid: those of a list; evenly from end to end of an
-  /// interval (of its logarithms), the middle for n = 1; the quantiles (k + 1/2) / n of a normal
-  /// distribution. n > 0, k < n.
+  /// Value k of n on a grid: the entries of a list; equidistant from end to end of an interval (of
+  /// its logarithms), the middle for n = 1; the quantiles (k + 1/2) / n of a normal distribution. n
+  /// > 0, k < n.
   double level(std::size_t k, std::size_t n) const;
-  /// How many levels there are where n are asked for: a list has its own number.
+  /// Number of levels if n are requested: a list has a fixed number.
   std::size_t levels(std::size_t n) const;
-  /// The smallest and largest number that can come, infinite for a normal distribution.
+  /// Smallest and largest possible value, infinite for a normal distribution.
   double smallest() const;
   double largest() const;
 };
 
-/// A number of the scene that varies.
+/// A varied number of the scene.
 struct Variation {
-  std::string path;                 ///< as the study has it: `rotor.bearings[0].kxx`
-  std::vector<SceneNumber> places;  ///< of the scene's file, all of which get the value
+  std::string path;                 ///< as in the study: `rotor.bearings[0].kxx`
+  std::vector<SceneNumber> places;  ///< in the scene's file; all get the value
   Distribution distribution;
-  std::string unit;      ///< "-" without or where it is not known
-  double nominal = 0.0;  ///< what the scene gives
+  std::string unit;      ///< "-" if dimensionless or not known
+  double nominal = 0.0;  ///< value in the scene
 };
 
 struct Measure {
   std::string name;
-  std::string text;  ///< of the expression, as the study has it
+  std::string text;  ///< of the expression, as in the study
   Expression expression;
-  std::string unit = "-";  ///< "-" without, and of what is computed of several
+  std::string unit = "-";  ///< "-" if dimensionless, and for compound expressions
 };
 
-/// What a measure must be for a point to pass.
+/// Requirement on a measure for a point to pass.
 struct Requirement {
   enum class Is { kBelow, kAtMost, kAbove, kAtLeast };
-  std::size_t measure = 0;  ///< place among the measures
+  std::size_t measure = 0;  ///< index of the measure
   Is is = Is::kBelow;
   double limit = 0.0;
 
-  /// False for what is not a number.
+  /// False for NaN.
   bool holds(double value) const {
     switch (is) {
       case Is::kBelow:
@@ -80,14 +80,14 @@ struct Requirement {
   }
 };
 
-/// What is looked for in place of a design: where a measure is least, or greatest.
+/// Optimization in place of a design: minimizes or maximizes a measure.
 struct Optimization {
-  std::size_t measure = 0;  ///< place among the measures
+  std::size_t measure = 0;  ///< index of the measure
   bool maximize = false;
-  std::vector<std::size_t> over;  ///< places of the numbers that are sought, among `vary`
+  std::vector<std::size_t> over;  ///< indices among `vary` of the numbers to find
   std::string method;             ///< bobyqa, cobyla, crs or isres
-  std::uint64_t evaluations = 0;  ///< at most
-  double tolerance = 0.0;         ///< [-], of each range: steps that are too small to matter
+  std::uint64_t evaluations = 0;  ///< maximum
+  double tolerance = 0.0;         ///< [-], of each range: termination by step size
 };
 
 struct Study {
@@ -95,27 +95,27 @@ struct Study {
   std::string text;        ///< its bytes
   std::string scene_path;  ///< of the scene's file
   std::string scene_text;  ///< its bytes
-  std::uint64_t hash = 0;  ///< of both texts, and of the monitor's settings
+  std::uint64_t hash = 0;  ///< of both texts and the monitor's settings
   std::uint32_t seed = 1;
-  std::uint64_t block = 1;  ///< points that are run, and written, together
+  std::uint64_t block = 1;  ///< points run and written together
   bool stop_at_failure = false;
   std::vector<Variation> vary;
   Design design;
-  std::optional<double> duration;  ///< [s], simulated; nothing: no run
-  std::optional<double> speed;     ///< [rad/s], of the shafts in analyses; nothing: at the start
-  AlarmSettings alarms;            ///< of the monitor, for alarms that are measured
+  std::optional<double> duration;  ///< [s], simulated; empty: no run
+  std::optional<double> speed;     ///< [rad/s], of the shafts in analyses; empty: initial
+  AlarmSettings alarms;            ///< settings of the monitor, for measured alarms
   std::vector<Measure> measures;
   std::vector<Requirement> requirements;
-  std::optional<Optimization> optimization;  ///< in place of a design: there are no points then
+  std::optional<Optimization> optimization;  ///< in place of a design: without points
 
   std::uint64_t points() const { return design.points; }
   std::uint64_t blocks() const { return (points() + block - 1) / block; }
-  /// Points of a block: from its first to one before the next one's.
+  /// Points of a block: from its first one to the one before the next block's.
   std::uint64_t firstOf(std::uint64_t number) const { return number * block; }
   std::uint64_t sizeOf(std::uint64_t number) const {
     return std::min(block, points() - firstOf(number));
   }
-  /// The values of point i, in the order of `vary`: of the study and i alone.
+  /// The values of point i, in the order of `vary`; depend on the study and i only.
   std::vector<double> valuesAt(std::uint64_t point) const;
 };
 

@@ -13,7 +13,7 @@
 
 #include "control/speed_profile.h"
 #include "messages/checksum.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "monitoring/alarm_settings_reader.h"
 #include "scene/built_scene.h"
 #include "scene/node_reader.h"
@@ -29,9 +29,9 @@ namespace whirl_twin {
 
 namespace {
 
-// Reads what a study looks for the least or the most of.
+// Reads the optimization of a study.
 
-constexpr int kMostEvaluations = 10'000'000;
+constexpr int kMaxEvaluations = 10'000'000;
 constexpr int kUsualEvaluations = 500;
 constexpr double kUsualTolerance = 1.0e-4;  // of each range
 
@@ -43,12 +43,12 @@ bool knowsRequirements(const std::string& method) {
 
 class OptimizationReader {
  public:
-  OptimizationReader(const YAML::Node& node, Study& study, Complaints& complaints)
+  OptimizationReader(const YAML::Node& node, Study& study, Diagnostics& diagnostics)
       : map_(node, "optimize",
              {"minimize", "maximize", "over", "method", "evaluations", "tolerance"},
-             "key of optimize", complaints),
+             "key of optimize", diagnostics),
         study_(study),
-        complaints_(complaints) {}
+        diagnostics_(diagnostics) {}
 
   void read() {
     if (!map_.usable()) {
@@ -58,17 +58,17 @@ class OptimizationReader {
     readNumbers();
     found_.method = map_.choice("method", kMethods, "method", usualMethod());
     if (!study_.requirements.empty() && !knowsRequirements(found_.method)) {
-      complaints_.add("optimize.method",
-                      fmt::format("{} has no requirements: use cobyla, or isres over the whole "
-                                  "range",
-                                  found_.method));
+      diagnostics_.add("optimize.method",
+                       fmt::format("{} has no requirements: use cobyla, or isres over the whole "
+                                   "range",
+                                   found_.method));
     }
     if (found_.over.size() == 1 && found_.method == "bobyqa") {
-      complaints_.add("optimize.method",
-                      "bobyqa needs at least two parameters; use cobyla for one");
+      diagnostics_.add("optimize.method",
+                       "bobyqa needs at least two parameters; use cobyla for one");
     }
     found_.evaluations = static_cast<std::uint64_t>(
-        map_.integer("evaluations", 1, kMostEvaluations, kUsualEvaluations));
+        map_.integer("evaluations", 1, kMaxEvaluations, kUsualEvaluations));
     found_.tolerance =
         map_.numberBetween("tolerance", 1.0e-12, 0.5, "of each range", kUsualTolerance);
     study_.optimization = found_;
@@ -77,7 +77,7 @@ class OptimizationReader {
  private:
   void readObjective() {
     if (map_.has("minimize") == map_.has("maximize")) {
-      complaints_.add("optimize", "must have one of minimize and maximize, with a measure");
+      diagnostics_.add("optimize", "must have one of minimize and maximize, with a measure");
       return;
     }
     found_.maximize = map_.has("maximize");
@@ -86,7 +86,7 @@ class OptimizationReader {
       names.push_back(measure.name);
     }
     if (names.empty()) {
-      return;  // which has been complained of
+      return;  // reported above
     }
     const std::string name =
         map_.choice(found_.maximize ? "maximize" : "minimize", names, "measure", names.front());
@@ -94,7 +94,7 @@ class OptimizationReader {
         static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
   }
 
-  /// All that varies, unless some are named; the others stay as the scene has them.
+  /// All varied numbers, unless some are named; the others keep their nominal values.
   void readNumbers() {
     std::vector<std::string> paths;
     for (const Variation& variation : study_.vary) {
@@ -102,8 +102,8 @@ class OptimizationReader {
     }
     const YAML::Node list = map_.has("over") ? map_.at("over") : YAML::Node(paths);
     if (!list.IsSequence() || (list.size() == 0 && map_.has("over"))) {
-      complaints_.add("optimize.over",
-                      fmt::format("must be a list of varied parameters, found {}", shown(list)));
+      diagnostics_.add("optimize.over",
+                       fmt::format("must be a list of varied parameters, found {}", shown(list)));
       return;
     }
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -111,11 +111,11 @@ class OptimizationReader {
       const auto place = std::find(paths.begin(), paths.end(), path);
       const auto number = static_cast<std::size_t>(place - paths.begin());
       if (place == paths.end()) {
-        complaints_.add(fmt::format("optimize.over[{}]", i),
-                        fmt::format("must be a varied parameter, found {}{}", shown(list[i]),
-                                    hint(path, paths)));
+        diagnostics_.add(fmt::format("optimize.over[{}]", i),
+                         fmt::format("must be a varied parameter, found {}{}", shown(list[i]),
+                                     hint(path, paths)));
       } else if (std::find(found_.over.begin(), found_.over.end(), number) != found_.over.end()) {
-        complaints_.add(fmt::format("optimize.over[{}]", i), fmt::format("duplicate: {}", path));
+        diagnostics_.add(fmt::format("optimize.over[{}]", i), fmt::format("duplicate: {}", path));
       } else {
         found_.over.push_back(number);
       }
@@ -126,10 +126,12 @@ class OptimizationReader {
       const double low = v.distribution.smallest();
       const double high = v.distribution.largest();
       if (sought && !(std::isfinite(low) && std::isfinite(high) && low < high)) {
-        complaints_.add("vary." + v.path,
-                        "must have bounds: uniform, log_uniform, relative_half_width or a list");
+        diagnostics_.add(
+            "vary." + v.path,
+            "must have two different bounds, because optimize varies it: uniform, log_uniform, "
+            "relative_half_width or a list");
       } else if (!sought && std::isnan(v.nominal)) {
-        complaints_.add(
+        diagnostics_.add(
             "vary." + v.path,
             "differs from move to move: name one move of the drive, or list it under optimize");
       }
@@ -142,25 +144,25 @@ class OptimizationReader {
 
   MapReader map_;
   Study& study_;
-  Complaints& complaints_;
+  Diagnostics& diagnostics_;
   Optimization found_;
 };
 
-/// `optimize` of a study whose variations, measures and requirements have been read, into it; what
-/// is wrong is complained of.
-void readOptimization(const MapReader& map, Study& study, Complaints& complaints) {
+/// Reads `optimize` into a study whose variations, measures and requirements have been read; adds
+/// errors to the diagnostics.
+void readOptimization(const MapReader& map, Study& study, Diagnostics& diagnostics) {
   if (map.has("design")) {
-    complaints.add("optimize", "must not be given with a design: a study has one of the two");
+    diagnostics.add("optimize", "must not be given with a design: a study has one of the two");
   }
-  OptimizationReader(map.at("optimize"), study, complaints).read();
+  OptimizationReader(map.at("optimize"), study, diagnostics).read();
 }
 
-constexpr int kMostInBlock = 1000000;
-constexpr std::uint64_t kMostBlocks = 1000000;  // files of one folder
+constexpr int kMaxInBlock = 1000000;
+constexpr std::uint64_t kMaxBlocks = 1000000;  // files of one folder
 constexpr std::uint64_t kUsualBlock = 1000;
-constexpr std::uint64_t kUsualBlocks = 64;  // that a small study is divided into
-constexpr int kLargestSeed = 1000000000;
-constexpr double kLongestDuration = 1.0e9;  // s
+constexpr std::uint64_t kUsualBlocks = 64;  // for a small study
+constexpr int kMaxSeed = 1000000000;
+constexpr double kMaxDuration = 1.0e9;  // s
 
 std::string readText(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -170,41 +172,42 @@ std::string readText(const std::string& path) {
 class StudyReader {
  public:
   explicit StudyReader(const std::string& path)
-      : folder_(std::filesystem::path(path).parent_path()), complaints_(path) {
+      : folder_(std::filesystem::path(path).parent_path()), diagnostics_(path) {
     study_.source = path;
   }
 
   Study read(const YAML::Node& tree) {
     const MapReader map(tree, "",
                         {"study", "vary", "design", "run", "measure", "require", "optimize"},
-                        "key of a study", complaints_);
+                        "key of a study", diagnostics_);
     if (map.usable()) {
       readScene(map);
       readRun(map);
-      const std::size_t before = complaints_.all().size();
+      const std::size_t before = diagnostics_.all().size();
       if (built_) {
-        study_.vary = readVariations(map, built_->scene, numbers_, complaints_);
+        study_.vary = readVariations(map, built_->scene, numbers_, diagnostics_);
       }
-      const bool varied = complaints_.all().size() == before;
+      const bool varied = diagnostics_.all().size() == before;
       if (map.has("design") || !map.has("optimize")) {
-        study_.design = readDesign(map, study_.vary, complaints_);
+        study_.design = readDesign(map, study_.vary, diagnostics_);
       }
       if (built_) {
-        readMeasures(map, *built_, study_, complaints_);
+        readMeasures(map, *built_, study_, diagnostics_);
       }
-      // A distribution that has an error has no ends.
+      // A distribution with an error has no ends.
       if (built_ && varied && map.has("optimize")) {
-        readOptimization(map, study_, complaints_);
+        readOptimization(map, study_, diagnostics_);
       }
     }
-    if (study_.block > 0 && study_.blocks() > kMostBlocks) {
-      complaints_.add("study.block",
-                      fmt::format("must be at least {} for {} points (at most {} blocks), found {}",
-                                  (study_.points() - 1) / kMostBlocks + 1, study_.points(),
-                                  kMostBlocks, study_.block));
+    if (study_.block > 0 && study_.blocks() > kMaxBlocks) {
+      diagnostics_.add(
+          "study.block",
+          fmt::format("must be at least {} for {} points (at most {} blocks), found {}",
+                      (study_.points() - 1) / kMaxBlocks + 1, study_.points(), kMaxBlocks,
+                      study_.block));
     }
-    if (!complaints_.all().empty()) {
-      throw Refusal(fmt::format("{}", fmt::join(complaints_.all(), "\ntwin: ")));
+    if (!diagnostics_.all().empty()) {
+      throw InputError(fmt::format("{}", fmt::join(diagnostics_.all(), "\ntwin: ")));
     }
     if (study_.block == 0) {
       study_.block = std::clamp(study_.points() / kUsualBlocks, std::uint64_t{1}, kUsualBlock);
@@ -220,24 +223,24 @@ class StudyReader {
  private:
   void readScene(const MapReader& map) {
     if (!map.has("study")) {
-      complaints_.add("study", "missing; must be a map with the scene: study: {scene: FILE.yaml}");
+      diagnostics_.add("study", "missing; must be a map with the scene: study: {scene: FILE.yaml}");
       return;
     }
     const MapReader study(map.at("study"), "study", {"scene", "seed", "block", "on_failure"},
-                          "key of study", complaints_);
+                          "key of study", diagnostics_);
     if (!study.usable()) {
       return;
     }
-    study_.seed = static_cast<std::uint32_t>(study.integer("seed", 0, kLargestSeed, 1));
+    study_.seed = static_cast<std::uint32_t>(study.integer("seed", 0, kMaxSeed, 1));
     study_.block = study.has("block")
-                       ? static_cast<std::uint64_t>(study.integer("block", 1, kMostInBlock, 1))
+                       ? static_cast<std::uint64_t>(study.integer("block", 1, kMaxInBlock, 1))
                        : 0;
     study_.stop_at_failure = study.choice("on_failure", {"record", "stop"},
                                           "the reaction to a failed point", "record") == "stop";
     const std::string scene = study.text("scene", "");
     if (scene.empty()) {
       if (!study.has("scene")) {
-        complaints_.add("study.scene", "missing; must be the file of a scene");
+        diagnostics_.add("study.scene", "missing; must be the file of a scene");
       }
       return;
     }
@@ -249,28 +252,28 @@ class StudyReader {
       const YAML::Node tree =
           separated(readYamlText(study_.scene_text, study_.scene_path, "a scene", "a step"));
       numbers_ = numbersOf(tree, built_->scene);
-    } catch (const Refusal& error) {  // each of its errors is a line, with its own place
-      complaints_.add("study.scene", error.what());
+    } catch (const InputError& error) {  // one line per error, with its place
+      diagnostics_.add("study.scene", error.what());
     }
   }
 
   void readRun(const MapReader& map) {
     if (!map.has("run")) {
-      complaints_.add("run", "missing; must be {duration: S}, analyze or both");
+      diagnostics_.add("run", "missing; must be {duration: S}, analyze or both");
       return;
     }
     if (map.at("run").IsScalar() && map.at("run").Scalar() == "analyze") {
       return;
     }
     const MapReader run(map.at("run"), "run", {"duration", "analyze", "speed", "alarms"},
-                        "key of run", complaints_);
+                        "key of run", diagnostics_);
     if (!run.usable()) {
       return;
     }
     if (run.has("duration")) {
-      study_.duration = run.numberBetween("duration", 0.0, kLongestDuration, "s", std::nullopt);
+      study_.duration = run.numberBetween("duration", 0.0, kMaxDuration, "s", std::nullopt);
     } else if (!run.has("analyze")) {
-      complaints_.add("run", "must be {duration: S}, analyze or both");
+      diagnostics_.add("run", "must be {duration: S}, analyze or both");
     }
     if (run.has("analyze")) {
       readAnalyses(run.at("analyze"));
@@ -279,12 +282,11 @@ class StudyReader {
       readAlarms(run.text("alarms", ""));
     }
     if (run.has("speed")) {
-      study_.speed =
-          run.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
+      study_.speed = run.numberBetween("speed", -kMaxSpeed, kMaxSpeed, "rad/s", std::nullopt);
     }
   }
 
-  /// The file of the monitor's settings.
+  /// Reads the file of the monitor's settings.
   void readAlarms(const std::string& file) {
     if (!built_ || file.empty()) {
       return;
@@ -303,12 +305,12 @@ class StudyReader {
       study_.alarms = readAlarmSettings(readYamlFile(path, "settings of the monitor", "alarms"),
                                         path, rotors, {}, stations);
       settings_text_ = readText(path);
-    } catch (const Refusal& error) {
-      complaints_.add("run.alarms", error.what());
+    } catch (const InputError& error) {
+      diagnostics_.add("run.alarms", error.what());
     }
   }
 
-  /// For the reader: what is measured tells what is analysed.
+  /// Checks only: the measures determine what is analysed.
   void readAnalyses(const YAML::Node& list) {
     static const std::vector<std::string> known{"critical_speeds", "margins",
                                                 "stability",       "natural_frequencies",
@@ -317,23 +319,23 @@ class StudyReader {
       return;
     }
     if (!list.IsSequence() || list.size() == 0) {
-      complaints_.add("run.analyze",
-                      fmt::format("must be true or a list of analyses, found {}", shown(list)));
+      diagnostics_.add("run.analyze",
+                       fmt::format("must be true or a list of analyses, found {}", shown(list)));
       return;
     }
     for (std::size_t i = 0; i < list.size(); ++i) {
       const std::string name = list[i].IsScalar() ? list[i].Scalar() : "";
       if (std::find(known.begin(), known.end(), name) == known.end()) {
-        complaints_.add(fmt::format("run.analyze[{}]", i),
-                        fmt::format("unknown analysis {}{}", shown(list[i]), hint(name, known)));
+        diagnostics_.add(fmt::format("run.analyze[{}]", i),
+                         fmt::format("unknown analysis {}{}", shown(list[i]), hint(name, known)));
       }
     }
   }
 
   std::filesystem::path folder_;
-  Complaints complaints_;
+  Diagnostics diagnostics_;
   Study study_;
-  std::string settings_text_;  // bytes of the monitor's, if there are any
+  std::string settings_text_;  // of the monitor's file, if any
   std::optional<BuiltScene> built_;
   std::map<std::string, NamedNumber> numbers_;
 };
@@ -345,7 +347,7 @@ Study readStudy(const std::string& path) {
   try {
     return StudyReader(path).read(tree);
   } catch (const YAML::Exception& error) {
-    throw Refusal(fmt::format("{}: not a study: {}", path, printable(error.what())));
+    throw InputError(fmt::format("{}: not a study: {}", path, printable(error.what())));
   }
 }
 

@@ -1,4 +1,4 @@
-// Reads what `twin sweep` is asked.
+// Reads the study of `twin sweep`.
 #pragma once
 
 #include <string>
@@ -7,9 +7,8 @@
 
 namespace whirl_twin {
 
-/// The study of a YAML file and its scene, whose path counts from the folder of the study. Throws
-/// Refusal with everything that is wrong with either, each "PATH: key: what was expected, what was
-/// found".
+/// Reads a study from a YAML file, and its scene, with a path relative to the folder of the study.
+/// Throws InputError with all errors of both, each "PATH: key: what was expected, what was found".
 Study readStudy(const std::string& path);
 
 }  // namespace whirl_twin

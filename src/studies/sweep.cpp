@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "studies/block_evaluator.h"
 
 namespace whirl_twin {
@@ -43,7 +43,7 @@ class Workers {
         progress(done_.load());
         lock.lock();
       }
-    } catch (...) {  // it takes too long, and that is not insisted on
+    } catch (...) {  // an exception of progress() ends the sweep
       stop_.store(true);
       join();
       throw;
@@ -62,7 +62,7 @@ class Workers {
       while (const auto block = dealer_(done_.load())) {
         runBlock(*block, evaluator);
       }
-    } catch (const Interrupted&) {  // the caller knows
+    } catch (const Interrupted&) {  // the caller reports it
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (!error_) {

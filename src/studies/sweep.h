@@ -1,4 +1,4 @@
-// Runs the points of a study that are not finished, block by block, on some threads.
+// Runs the unfinished points of a study block by block on several threads.
 #pragma once
 
 #include <atomic>
@@ -12,31 +12,32 @@
 
 namespace whirl_twin {
 
-/// Which blocks are run: number `part` of `parts` hands of them, dealt in turn; 0 is the first.
+/// Share of the blocks: hand `part` (from 0) of `parts`, dealt in turn.
 struct Share {
   std::uint64_t part = 0;
   std::uint64_t parts = 1;
 };
 
-/// Those of a share that are not finished, in their order.
+/// The unfinished blocks of a share, in order.
 std::vector<std::uint64_t> unfinishedBlocks(const Study& study, const ResultFolder& folder,
                                             const Share& share);
 
-/// The next block that is to be run; nothing: there is none left. Called by any thread, with how
-/// many points this process has run.
+/// Returns the next block to run; empty: none is available. Called from any thread with the number
+/// of points run by this process.
 using BlockDealer = std::function<std::optional<std::uint64_t>(std::uint64_t done)>;
 
-/// Called ten times a second, by the thread that called sweep(), with how many points are done.
+/// Called ten times a second, by the thread that called sweep(), with the number of completed
+/// points.
 using SweepProgress = std::function<void(std::uint64_t done)>;
 
-/// Runs what is dealt. Results do not depend on the number of workers, nor on who runs which block.
-/// `stop` may be set from outside, by a signal handler: what is unfinished then is dropped. Throws
-/// RunFailure where it was stopped, where a block could not be written, or where a point failed and
-/// the study stops at that.
+/// Runs the dealt blocks. Results are independent of the number of workers and of the assignment of
+/// blocks. `stop` may be set from outside, by a signal handler: unfinished blocks are discarded.
+/// Throws RunFailure if it was stopped, if a block could not be written, or if a point failed and
+/// the study is configured to stop then.
 void sweep(const Study& study, const ResultFolder& folder, unsigned workers,
            const BlockDealer& dealer, std::atomic<bool>& stop, const SweepProgress& progress);
 
-/// Deals these, in their order, to all who ask.
+/// Deals these blocks in order, to any thread.
 class BlockDeck {
  public:
   explicit BlockDeck(std::vector<std::uint64_t> blocks) : blocks_(std::move(blocks)) {}

@@ -12,29 +12,29 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kMostEntries = 100000;  // of a list
+constexpr std::size_t kMaxEntries = 100000;  // of a list
 
 class VariationReader {
  public:
   VariationReader(const Scene& scene, const std::map<std::string, NamedNumber>& numbers,
-                  Complaints& complaints)
-      : scene_(scene), numbers_(numbers), complaints_(complaints) {}
+                  Diagnostics& diagnostics)
+      : scene_(scene), numbers_(numbers), diagnostics_(diagnostics) {}
 
   std::vector<Variation> read(const MapReader& map) {
     if (!map.has("vary")) {
-      complaints_.add("vary", "missing; must name the varied parameters of the scene");
+      diagnostics_.add("vary", "missing; must name the varied parameters of the scene");
       return {};
     }
-    const MapReader vary(map.at("vary"), "vary", {}, "", complaints_);
+    const MapReader vary(map.at("vary"), "vary", {}, "", diagnostics_);
     if (vary.usable() && vary.names().empty()) {
-      complaints_.add("vary", "must name a varied parameter of the scene");
+      diagnostics_.add("vary", "must name a varied parameter of the scene");
     }
     std::vector<Variation> all;
     std::map<std::string, std::string> taken;
     for (const std::string& path : vary.names()) {
       const auto found = numbers_.find(path);
       if (found == numbers_.end()) {
-        complaints_.add(vary.key(path), objectionToPath(path));
+        diagnostics_.add(vary.key(path), objectionToPath(path));
         continue;
       }
       Variation variation;
@@ -45,8 +45,8 @@ class VariationReader {
       for (const SceneNumber& place : variation.places) {
         const auto [other, first] = taken.emplace(keyOf(place), path);
         if (!first) {
-          complaints_.add(vary.key(path), fmt::format("duplicate: {} is already varied by {}",
-                                                      keyOf(place), other->second));
+          diagnostics_.add(vary.key(path), fmt::format("duplicate: {} is already varied by {}",
+                                                       keyOf(place), other->second));
         }
       }
       if (readDistribution(vary.at(path), vary.key(path), variation)) {
@@ -68,9 +68,9 @@ class VariationReader {
     return key;
   }
 
-  /// Why there is no such number; the nearest that there is.
+  /// Message for an unknown path, with the nearest valid one.
   std::string objectionToPath(const std::string& path) const {
-    // Another row of a list that is there: said as what it is.
+    // The list exists, but not this row.
     const std::size_t open = path.find('[');
     const std::size_t close = path.find(']');
     if (open != std::string::npos && close != std::string::npos && open < close) {
@@ -108,22 +108,22 @@ class VariationReader {
   }
   bool hasBelow(const std::string& path) const { return !firstBelow(path).empty(); }
 
-  /// The numbers of a list. Complains of any that is none.
+  /// The numbers of a list; adds a diagnostic for each invalid entry.
   std::vector<double> numbersIn(const YAML::Node& list, const std::string& key, std::size_t least,
                                 std::size_t most, const std::string& what) {
     std::vector<double> numbers;
     if (!list.IsSequence() || list.size() < least || list.size() > most) {
-      complaints_.add(key, fmt::format("must be {}, found {}", what,
-                                       list.IsSequence() ? fmt::format("{} entries", list.size())
-                                                         : shown(list)));
+      diagnostics_.add(key, fmt::format("must be {}, found {}", what,
+                                        list.IsSequence() ? fmt::format("{} entries", list.size())
+                                                          : shown(list)));
       return {};
     }
     bool good = true;
     for (std::size_t i = 0; i < list.size(); ++i) {
       const auto number = list[i].IsScalar() ? parseNumber(list[i].Scalar()) : std::nullopt;
       if (!number) {
-        complaints_.add(fmt::format("{}[{}]", key, i),
-                        fmt::format("must be a finite number, found {}", shown(list[i])));
+        diagnostics_.add(fmt::format("{}[{}]", key, i),
+                         fmt::format("must be a finite number, found {}", shown(list[i])));
         good = false;
       }
       numbers.push_back(number.value_or(0.0));
@@ -131,9 +131,9 @@ class VariationReader {
     return good ? numbers : std::vector<double>();
   }
 
-  /// False where a complaint was added.
+  /// False if a diagnostic was added.
   bool readDistribution(const YAML::Node& node, const std::string& key, Variation& variation) {
-    const std::size_t before = complaints_.all().size();
+    const std::size_t before = diagnostics_.all().size();
     static const std::vector<std::string> kinds{"uniform",
                                                 "log_uniform",
                                                 "normal",
@@ -141,13 +141,13 @@ class VariationReader {
                                                 "list",
                                                 "relative_half_width",
                                                 "relative_standard_deviation"};
-    const MapReader map(node, key, kinds, "distribution", complaints_);
+    const MapReader map(node, key, kinds, "distribution", diagnostics_);
     if (!map.usable()) {
       return false;
     }
     if (map.names().size() != 1) {
-      if (complaints_.all().size() == before) {
-        complaints_.add(key, fmt::format("must be one of {}", fmt::join(kinds, ", ")));
+      if (diagnostics_.all().size() == before) {
+        diagnostics_.add(key, fmt::format("must be one of {}", fmt::join(kinds, ", ")));
       }
       return false;
     }
@@ -163,26 +163,27 @@ class VariationReader {
         d.mean = pair[0];
         d.deviation = pair[1];
         if (!(d.deviation > 0.0)) {
-          complaints_.add(map.key(kind),
-                          fmt::format("the standard deviation must be > 0, found {}", pair[1]));
+          diagnostics_.add(map.key(kind),
+                           fmt::format("the standard deviation must be > 0, found {}", pair[1]));
         }
         checkWidth(map.key(kind), d.mean, d.deviation);
       }
     } else if (kind == "grid" || kind == "list") {
       d.kind = Distribution::Kind::kList;
-      d.list = numbersIn(map.at(kind), map.key(kind), 1, kMostEntries,
-                         fmt::format("a list of 1 to {} numbers", kMostEntries));
+      d.list = numbersIn(map.at(kind), map.key(kind), 1, kMaxEntries,
+                         fmt::format("a list of 1 to {} numbers", kMaxEntries));
     } else {
       readRelative(map, kind, variation);
     }
-    return complaints_.all().size() == before;
+    return diagnostics_.all().size() == before;
   }
 
-  /// A normal distribution comes to 8.3 deviations from its mean, an interval to one width.
+  /// Range check: a normal distribution is limited to 8.3 standard deviations about its mean, an
+  /// interval to one width.
   void checkWidth(const std::string& key, double middle, double width) {
     if (!std::isfinite(10.0 * width) || !std::isfinite(middle + 10.0 * width)) {
-      complaints_.add(key,
-                      fmt::format("exceeds the range of a double: {} about {}", width, middle));
+      diagnostics_.add(key,
+                       fmt::format("exceeds the range of a double: {} about {}", width, middle));
     }
   }
 
@@ -194,9 +195,10 @@ class VariationReader {
     d.low = pair[0];
     d.high = pair[1];
     if (!(d.low < d.high) || !std::isfinite(d.high - d.low)) {
-      complaints_.add(key, fmt::format("must be [lowest, highest], found [{}, {}]", d.low, d.high));
+      diagnostics_.add(key,
+                       fmt::format("must be [lowest, highest], found [{}, {}]", d.low, d.high));
     } else if (d.kind == Distribution::Kind::kLogUniform && !(d.low > 0.0)) {
-      complaints_.add(key, fmt::format("must be > 0 with a logarithmic range, found {}", d.low));
+      diagnostics_.add(key, fmt::format("must be > 0 with a logarithmic range, found {}", d.low));
     }
   }
 
@@ -205,11 +207,11 @@ class VariationReader {
     const double width = part * std::fabs(variation.nominal);
     Distribution& d = variation.distribution;
     if (variation.nominal == 0.0) {
-      complaints_.add(map.key(kind),
-                      "must not be relative to 0, the value of the scene: give an absolute width");
+      diagnostics_.add(map.key(kind),
+                       "must not be relative to 0, the value of the scene: give an absolute width");
     }
     if (variation.places.size() > 1) {
-      complaints_.add(map.key(kind), "must be a list of values for all moves, or name one move");
+      diagnostics_.add(map.key(kind), "must be a list of values for all moves, or name one move");
     }
     if (std::isfinite(part) && !std::isnan(variation.nominal)) {
       checkWidth(map.key(kind), variation.nominal, width);
@@ -225,7 +227,7 @@ class VariationReader {
     }
   }
 
-  /// Ends that the parameter cannot have are no matter of chance.
+  /// Ends outside the valid range of the parameter are an error of the study, not of single points.
   void checkRange(const std::string& key, const NamedNumber& number,
                   const Distribution& distribution) {
     if (number.parameter.empty()) {
@@ -233,11 +235,11 @@ class VariationReader {
     }
     SystemSpec spec = scene_.systems[number.system];
     for (const double end : {distribution.smallest(), distribution.largest()}) {
-      Complaints said("");
+      Diagnostics said("");
       if (std::isfinite(end) &&
           !setParameter(number.parameter, end, *findModel(spec.model), spec, said)) {
         const std::string& why = said.all().front();
-        complaints_.add(key, why.substr(why.rfind(": ") + 2));
+        diagnostics_.add(key, why.substr(why.rfind(": ") + 2));
         return;
       }
     }
@@ -245,15 +247,15 @@ class VariationReader {
 
   const Scene& scene_;
   const std::map<std::string, NamedNumber>& numbers_;
-  Complaints& complaints_;
+  Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
 std::vector<Variation> readVariations(const MapReader& study, const Scene& scene,
                                       const std::map<std::string, NamedNumber>& numbers,
-                                      Complaints& complaints) {
-  return VariationReader(scene, numbers, complaints).read(study);
+                                      Diagnostics& diagnostics) {
+  return VariationReader(scene, numbers, diagnostics).read(study);
 }
 
 }  // namespace whirl_twin

@@ -1,4 +1,4 @@
-// Reads which numbers of a scene vary in a study, and how.
+// Reads the varied numbers of a study and their distributions.
 #pragma once
 
 #include <map>
@@ -12,9 +12,9 @@
 
 namespace whirl_twin {
 
-/// `vary` of a study, of the numbers that its scene has; what is wrong is complained of.
+/// Reads `vary` of a study, for the numbers of its scene; adds errors to the diagnostics.
 std::vector<Variation> readVariations(const MapReader& study, const Scene& scene,
                                       const std::map<std::string, NamedNumber>& numbers,
-                                      Complaints& complaints);
+                                      Diagnostics& diagnostics);
 
 }  // namespace whirl_twin

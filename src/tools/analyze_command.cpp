@@ -6,11 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reports/asked_cost.h"
 #include "reports/loop_report.h"
-#include "reports/method_analysis.h"
-#include "reports/selected_systems.h"
+#include "reports/rotor_systems.h"
 #include "reports/system_analysis.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
@@ -76,18 +75,18 @@ struct AnalyzeRequest {
   bool insist = false;
 };
 
-/// The scene with every shaft at this speed [rad/s]. Of a shaft on a motor it is part of the
-/// motion.
+/// The scene with every shaft at this speed [rad/s]. For a shaft on a motor it is part of the
+/// state.
 Scene withSpeed(Scene scene, const std::vector<std::size_t>& shown, double speed) {
   constexpr double kFastest = 1.0e6;
   if (!(std::fabs(speed) <= kFastest)) {
-    throw Refusal("--speed: expected a shaft speed from -1e+06 to 1e+06 rad/s");
+    throw InputError("--speed: expected a shaft speed from -1e+06 to 1e+06 rad/s");
   }
   bool any = false;
   for (const std::size_t i : shown) {
     const SystemSpec& system = scene.systems[i];
     if (system.drive && scene.drives[scene.driveOf(system)].motor) {
-      throw Refusal(
+      throw InputError(
           fmt::format("--speed: the speed of {} is not prescribed but follows from its motor; use "
                       "--at for an instant",
                       system.name));
@@ -95,7 +94,7 @@ Scene withSpeed(Scene scene, const std::vector<std::size_t>& shown, double speed
     any = any || system.drive || system.speed;
   }
   if (!any) {
-    throw Refusal("--speed: needs a system with a shaft, found none");
+    throw InputError("--speed: needs a system with a shaft, found none");
   }
   for (DriveSpec& drive : scene.drives) {
     if (!drive.motor) {
@@ -111,7 +110,7 @@ Scene withSpeed(Scene scene, const std::vector<std::size_t>& shown, double speed
   return scene;
 }
 
-/// The scene as it has come to be after so many seconds, its shafts held at their speeds of then.
+/// The scene in its state after so many seconds, its shafts kept at their speeds at that time.
 Scene sceneAt(const AnalyzeRequest& request) {
   SimulationRequest run;
   run.scene = request.scene;
@@ -152,13 +151,13 @@ std::size_t modesAskedFor(const AnalyzeRequest& request) {
   if (request.modes == "all") {
     return kAllModes;
   }
-  constexpr std::size_t kMostDigits = 6;
-  const bool number = !request.modes.empty() && request.modes.size() <= kMostDigits &&
+  constexpr std::size_t kMaxDigits = 6;
+  const bool number = !request.modes.empty() && request.modes.size() <= kMaxDigits &&
                       std::all_of(request.modes.begin(), request.modes.end(),
                                   [](char c) { return c >= '0' && c <= '9'; });
   const std::size_t modes = number ? std::stoul(request.modes) : 0;
   if (modes == 0) {
-    throw Refusal(
+    throw InputError(
         fmt::format("--modes: expected the number of lowest modes, 1 or more, or all, found {}",
                     request.modes));
   }
@@ -222,7 +221,7 @@ void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
       .option(
           "--modes", request->modes,
           fmt::format("number of lowest modes, or all, with more than {} coordinates; default: {}",
-                      kMostCompleteCoordinates, kLowestModes))
+                      kMaxCompleteCoordinates, kLowestModes))
       .type("N");
   command.flag("--parameters", request->all_parameters,
                "compute the instability points of the parameters also where that takes minutes");

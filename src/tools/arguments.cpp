@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "analysis/exact_number.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "reports/output.h"
 
 namespace whirl_twin {
@@ -54,13 +54,13 @@ std::int64_t parseNanoseconds(const std::string& option, const std::string& text
   Rational nanoseconds;
   try {
     nanoseconds = parseRational(text) * 1000000000;
-  } catch (const Refusal&) {
-    throw Refusal(fmt::format("{}: {}, found '{}'", option, expected, text));
+  } catch (const InputError&) {
+    throw InputError(fmt::format("{}: {}, found '{}'", option, expected, text));
   }
   if (nanoseconds < low || nanoseconds > high) {
-    throw Refusal(fmt::format("{}: {}, found {} s", option, expected, text));
+    throw InputError(fmt::format("{}: {}, found {} s", option, expected, text));
   }
-  const Rational units = nanoseconds / unit + Rational(1, 2);  // nearest: the floor of this
+  const Rational units = nanoseconds / unit + Rational(1, 2);  // floor of this: nearest integer
   const auto whole = static_cast<std::int64_t>(numerator(units) / denominator(units)) * unit;
   if (nanoseconds != whole) {
     complain(fmt::format("twin: {}: {} s is not a whole number of {}: {} is used\n", option, text,

@@ -1,4 +1,4 @@
-// What the command line's words mean: scenes, names, and numbers with a unit.
+// Parsing of command-line arguments: scenes, names, and numbers with a unit.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,20 @@
 
 namespace whirl_twin {
 
-// --channel: which channels of a log, or topics of a bag, a command is about.
+// --channel: selects channels of a log, or topics of a bag.
 
-/// Patterns as the shell has them, *, ? and [...]; none means all.
+/// Shell patterns with *, ? and [...]; none means all.
 using ChannelFilter = std::vector<std::string>;
 
 void addChannelOption(const ProgramCommand& command, ChannelFilter& filter);
 
 bool selects(const ChannelFilter& filter, const std::string& channel);
 
-/// The scene that a command is about.
+/// The scene argument of a command.
 void addSceneOption(const ProgramCommand& command, std::string& scene);
 
-/// --insist: do what takes more than a day, or more memory than is free (reports/asked_cost.h).
+/// --insist: allow a command that takes more than a day, or more memory than is free
+/// (reports/asked_cost.h).
 void addInsistOption(const ProgramCommand& command, bool& insist);
 
 /// --csv: the command's tables, into files (reports/csv_table.h).
@@ -30,17 +31,18 @@ void addCsvOption(const ProgramCommand& command, std::optional<std::string>& csv
 
 inline constexpr std::int64_t kSecond = 1'000'000'000;  ///< [ns]
 
-/// Seconds, as typed, as the nearest whole number of `unit`s [ns], in nanoseconds; from `low` to
-/// `high` [ns]. Exact: no binary fraction comes in between. What is not a whole number is said on
-/// standard error with what is taken instead. `option` names it there. Throws Refusal.
+/// Parses seconds and rounds to the nearest whole number of `unit`s [ns]; result in nanoseconds,
+/// from `low` to `high` [ns]. Exact: without intermediate binary fractions. A value that is not a
+/// whole number is reported on standard error with the value used instead. `option` names it there.
+/// Throws InputError.
 std::int64_t parseNanoseconds(const std::string& option, const std::string& text, std::int64_t low,
                               std::int64_t high, std::int64_t unit = 1);
 
 /// Nanoseconds as seconds, for a message: "0.0005 s".
 std::string inSeconds(std::int64_t nanoseconds);
 
-/// The arguments of `twin` in the order CLI11 wants: coefficients of `twin routh` begin with a
-/// minus sign as often as not, so they go last, behind a `--`.
+/// The arguments of `twin` in the order that CLI11 requires: coefficients of `twin routh` often
+/// begin with a minus sign, so they go last, behind a `--`.
 std::vector<std::string> orderedArguments(int argc, const char* const* argv);
 
 }  // namespace whirl_twin

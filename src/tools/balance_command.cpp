@@ -68,12 +68,12 @@ double degrees(const std::complex<double>& z) {
 
 using Spread = std::optional<CorrectionSpread>;
 
-/// [deg], of the angle of a mass whose components have a deviation.
+/// [deg], standard deviation of the angle of a mass from that of its components.
 double angleDeviation(const std::complex<double>& mass, double deviation) {
   return std::atan2(deviation, std::abs(mass)) / kDegree;
 }
 
-/// 95 % of either side of a value; null where that is not known.
+/// Half width of the 95 % interval of a value; null where it is unknown.
 Json aside(double value, const Spread& spread, double deviation) {
   return spread ? Json{value - spread->within95 * deviation, value + spread->within95 * deviation}
                 : Json();
@@ -104,7 +104,7 @@ Json balanceJson(const BalancingRuns& runs, const BalanceCorrection& c, const Sp
   return json;
 }
 
-/// The masses to add; what is left at the probes.
+/// The correction masses; the residual vibration at the probes.
 CsvTables balanceTables(const BalancingRuns& runs, const BalanceCorrection& c) {
   CsvTable planes{"", {"plane", "mass_radius", "angle"}};
   for (std::size_t i = 0; i < runs.planes.size(); ++i) {
@@ -167,14 +167,14 @@ int balanceRuns(const BalanceRequest& request) {
 
 int balanceMeasured(const BalanceRequest& request) {
   if (!(request.unbalance.from >= 0.0 && request.unbalance.from < request.unbalance.to)) {
-    throw Refusal(fmt::format("--from, --to: --from must be < --to, found {:g} and {:g} rad/s",
-                              request.unbalance.from, request.unbalance.to));
+    throw InputError(fmt::format("--from, --to: --from must be < --to, found {:g} and {:g} rad/s",
+                                 request.unbalance.from, request.unbalance.to));
   }
   requireLcmPrefix(request.lcm_prefix);
   const BuiltScene scene = build(readSceneFile(scenePath(request.file)));
   const auto systems = rotorSystems(scene, request.system);
   if (systems.size() > 1) {
-    throw Refusal("--system: missing; must name the rotor that the log belongs to");
+    throw InputError("--system: missing; must name the rotor that the log belongs to");
   }
   const RotorRecord record(scene, systems.front(), *request.measured, request.lcm_prefix);
   const UnbalanceReport report = unbalanceReport(systems.front(), record, request.unbalance);

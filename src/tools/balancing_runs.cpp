@@ -7,8 +7,8 @@
 #include <complex>
 
 #include "algebra/constants.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "scene/node_reader.h"
 #include "scene/yaml_file.h"
 
@@ -16,18 +16,18 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kMostNames = 200;
-constexpr double kLargest = 1.0e12;        // amplitude, weight, mass times radius [kg m]
-constexpr double kLeastMass = 1.0e-12;     // kg m: a speck of dust at a centimetre
-constexpr double kLargestAngle = 360.0e3;  // deg, either way
+constexpr std::size_t kMaxNames = 200;
+constexpr double kLargest = 1.0e12;    // amplitude, weight, mass times radius [kg m]
+constexpr double kMinMass = 1.0e-12;   // kg m: a speck of dust at a centimetre
+constexpr double kMaxAngle = 360.0e3;  // deg, either way
 
 class RunsReader {
  public:
-  explicit RunsReader(const std::string& path) : complaints_(path) {}
+  explicit RunsReader(const std::string& path) : diagnostics_(path) {}
 
   BalancingRuns read(const YAML::Node& tree) {
     const MapReader map(tree, "", {"probes", "planes", "initial", "trials", "weights", "deviation"},
-                        "key of balancing runs", complaints_);
+                        "key of balancing runs", diagnostics_);
     if (map.usable()) {
       runs_.probes = names(map, "probes");
       runs_.planes = names(map, "planes");
@@ -35,26 +35,27 @@ class RunsReader {
       readWeights(map);
       readTrials(map);
       if (map.has("deviation")) {
-        runs_.deviation = number(map.at("deviation"), map.key("deviation"), kLeastMass, kLargest,
+        runs_.deviation = number(map.at("deviation"), map.key("deviation"), kMinMass, kLargest,
                                  "a standard deviation");
       }
     }
-    if (!complaints_.all().empty()) {
-      throw Refusal(fmt::format("{}", fmt::join(complaints_.all(), "\ntwin: ")));
+    if (!diagnostics_.all().empty()) {
+      throw InputError(fmt::format("{}", fmt::join(diagnostics_.all(), "\ntwin: ")));
     }
     return runs_;
   }
 
  private:
-  /// The list under a key; nothing, after a complaint, where there is none of this size.
+  /// The list under a key; empty, with an error recorded, where there is none of this size.
   std::vector<YAML::Node> list(const MapReader& map, const std::string& name,
                                const std::string& expected, std::size_t least, std::size_t most) {
     const YAML::Node node = map.at(name);
     if (!node.IsDefined() || !node.IsSequence() || node.size() < least || node.size() > most) {
       const bool other_size = node.IsDefined() && node.IsSequence();
-      complaints_.add(map.key(name), fmt::format("must be {}, found {}", expected,
-                                                 other_size ? fmt::format("{} entries", node.size())
-                                                            : shown(node)));
+      diagnostics_.add(
+          map.key(name),
+          fmt::format("must be {}, found {}", expected,
+                      other_size ? fmt::format("{} entries", node.size()) : shown(node)));
       return {};
     }
     return {node.begin(), node.end()};
@@ -63,15 +64,15 @@ class RunsReader {
   std::vector<std::string> names(const MapReader& map, const std::string& name) {
     std::vector<std::string> all;
     const auto nodes =
-        list(map, name, fmt::format("a list of 1 to {} names", kMostNames), 1, kMostNames);
+        list(map, name, fmt::format("a list of 1 to {} names", kMaxNames), 1, kMaxNames);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const std::string one = nodes[i].IsScalar() ? nodes[i].Scalar() : "";
       const std::string key = fmt::format("{}[{}]", map.key(name), i);
       if (one.empty()) {
-        complaints_.add(key, fmt::format("must be a name, found {}", shown(nodes[i])));
+        diagnostics_.add(key, fmt::format("must be a name, found {}", shown(nodes[i])));
       } else if (std::find(all.begin(), all.end(), one) != all.end()) {
-        complaints_.add(key,
-                        fmt::format("must be unique, found {} twice", whirl_twin::quoted(one)));
+        diagnostics_.add(key,
+                         fmt::format("must be unique, found {} twice", whirl_twin::inQuotes(one)));
       }
       all.push_back(one);
     }
@@ -83,8 +84,8 @@ class RunsReader {
     const auto value =
         node.IsDefined() && node.IsScalar() ? parseNumber(node.Scalar()) : std::optional<double>();
     if (!value || !(*value >= least && *value <= largest)) {
-      complaints_.add(key, fmt::format("must be {} from {:g} to {:g}, found {}", what, least,
-                                       largest, shown(node)));
+      diagnostics_.add(key, fmt::format("must be {} from {:g} to {:g}, found {}", what, least,
+                                        largest, shown(node)));
       return 0.0;
     }
     return *value;
@@ -94,21 +95,21 @@ class RunsReader {
     const std::size_t probes = runs_.probes.size();
     Eigen::VectorXcd all = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(probes));
     if (probes == 0) {
-      return all;  // which has been said
+      return all;  // already reported
     }
     const auto nodes =
         list(map, name, fmt::format("a list of {}, one per probe", probes), probes, probes);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const std::string key = fmt::format("{}[{}]", map.key(name), i);
       if (!nodes[i].IsSequence() || nodes[i].size() != 2) {
-        complaints_.add(
+        diagnostics_.add(
             key, fmt::format("must be [amplitude, phase lag in deg], found {}", shown(nodes[i])));
         continue;
       }
       const double amplitude =
           number(nodes[i][0], key + "[0]", -kLargest, kLargest, "an amplitude");
       const double lag =
-          number(nodes[i][1], key + "[1]", -kLargestAngle, kLargestAngle, "a phase lag in deg");
+          number(nodes[i][1], key + "[1]", -kMaxAngle, kMaxAngle, "a phase lag in deg");
       all[static_cast<Eigen::Index>(i)] = amplitude * std::polar(1.0, -kDegree * lag);
     }
     return all;
@@ -120,38 +121,38 @@ class RunsReader {
     if (!map.has("weights") || probes == 0) {
       return;
     }
-    const std::size_t before = complaints_.all().size();
+    const std::size_t before = diagnostics_.all().size();
     const auto nodes =
         list(map, "weights", fmt::format("a list of {}, one per probe", probes), probes, probes);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       runs_.weights[static_cast<Eigen::Index>(i)] =
           number(nodes[i], fmt::format("{}[{}]", map.key("weights"), i), 0.0, kLargest, "a weight");
     }
-    if (complaints_.all().size() == before && runs_.weights.isZero(0.0)) {
-      complaints_.add(map.key("weights"), "must have one > 0");
+    if (diagnostics_.all().size() == before && runs_.weights.isZero(0.0)) {
+      diagnostics_.add(map.key("weights"), "must have one > 0");
     }
   }
 
   void readTrials(const MapReader& map) {
-    constexpr std::size_t kMostTrials = 10000;
-    const std::size_t before = complaints_.all().size();
+    constexpr std::size_t kMaxTrials = 10000;
+    const std::size_t before = diagnostics_.all().size();
     const auto nodes =
-        list(map, "trials", fmt::format("a list of 1 to {} runs", kMostTrials), 1, kMostTrials);
+        list(map, "trials", fmt::format("a list of 1 to {} runs", kMaxTrials), 1, kMaxTrials);
     std::vector<bool> tried(runs_.planes.size(), false);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const MapReader run(nodes[i], fmt::format("{}[{}]", map.key("trials"), i),
                           {"plane", "mass_radius", "angle", "readings"}, "key of a trial run",
-                          complaints_);
+                          diagnostics_);
       if (run.usable() && !runs_.planes.empty()) {
         readTrial(run, tried);
       }
     }
-    const bool sound = complaints_.all().size() == before;
+    const bool sound = diagnostics_.all().size() == before;
     for (std::size_t plane = 0; sound && plane < tried.size(); ++plane) {
       if (!tried[plane]) {
-        complaints_.add(map.key("trials"),
-                        fmt::format("must have a run with a mass in every plane, found none in {}",
-                                    whirl_twin::quoted(runs_.planes[plane])));
+        diagnostics_.add(map.key("trials"),
+                         fmt::format("must have a run with a mass in every plane, found none in {}",
+                                     whirl_twin::inQuotes(runs_.planes[plane])));
       }
     }
   }
@@ -159,16 +160,16 @@ class RunsReader {
   void readTrial(const MapReader& run, std::vector<bool>& tried) {
     const std::vector<std::string>& planes = runs_.planes;
     if (!run.has("plane")) {
-      complaints_.add(run.key("plane"), "missing; must be the name of a plane");
+      diagnostics_.add(run.key("plane"), "missing; must be the name of a plane");
     }
     const auto place = std::find(planes.begin(), planes.end(),
                                  run.choice("plane", planes, "the name of a plane", ""));
     TrialRun trial;
-    const std::size_t before = complaints_.all().size();
+    const std::size_t before = diagnostics_.all().size();
     const double size = number(run.at("mass_radius"), run.key("mass_radius"), -kLargest, kLargest,
                                "mass times radius in kg m,");
     const double angle =
-        number(run.at("angle"), run.key("angle"), -kLargestAngle, kLargestAngle, "an angle in deg");
+        number(run.at("angle"), run.key("angle"), -kMaxAngle, kMaxAngle, "an angle in deg");
     trial.mass_radius = size * std::polar(1.0, kDegree * angle);
     trial.readings = readings(run, "readings");
     if (place == planes.end()) {
@@ -176,16 +177,16 @@ class RunsReader {
     }
     trial.plane = place - planes.begin();
     tried[static_cast<std::size_t>(trial.plane)] = true;
-    const bool read = complaints_.all().size() == before;
-    if (read && std::fabs(size) < kLeastMass && run.has("mass_radius")) {
-      complaints_.add(run.key("mass_radius"),
-                      fmt::format("must be {:g} kg m at least, found {} in plane {}", kLeastMass,
-                                  shown(run.at("mass_radius")), whirl_twin::quoted(*place)));
+    const bool read = diagnostics_.all().size() == before;
+    if (read && std::fabs(size) < kMinMass && run.has("mass_radius")) {
+      diagnostics_.add(run.key("mass_radius"),
+                       fmt::format("must be {:g} kg m at least, found {} in plane {}", kMinMass,
+                                   shown(run.at("mass_radius")), whirl_twin::inQuotes(*place)));
     }
     runs_.trials.push_back(trial);
   }
 
-  Complaints complaints_;
+  Diagnostics diagnostics_;
   BalancingRuns runs_;
 };
 

@@ -1,4 +1,4 @@
-// The runs that `twin balance` reads: what was measured, with which trial masses.
+// The runs that `twin balance` reads: vibration readings, and the trial masses.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,12 +14,12 @@ struct BalancingRuns {
   Eigen::VectorXcd initial;                 ///< of each probe: amplitude e^(-i lag), any unit
   Eigen::VectorXd weights;                  ///< of each probe, >= 0 and not all 0
   std::vector<TrialRun> trials;             ///< at least one for each plane
-  /// Standard deviation of either component of a reading, in its unit; 0: not stated.
+  /// Standard deviation of either component of a reading, in its unit; 0: not specified.
   double deviation = 0.0;
 };
 
-/// Reads them from a YAML file. Throws Refusal with everything that is wrong with it. The sizes
-/// allowed leave room for what is computed of them: nothing overflows.
+/// Reads them from a YAML file. Throws InputError with all its errors. The limits on the values
+/// exclude overflow in the computations that follow.
 BalancingRuns readBalancingRuns(const std::string& path);
 
 }  // namespace whirl_twin

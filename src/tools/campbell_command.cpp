@@ -2,7 +2,7 @@
 #include <memory>
 #include <optional>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reports/asked_cost.h"
 #include "reports/campbell_report.h"
 #include "tools/arguments.h"
@@ -39,12 +39,12 @@ struct CampbellCommandRequest {
 void requireNumbers(const CampbellCommandRequest& request) {
   for (const double harmonic : request.harmonics) {
     if (!(harmonic > 0.0 && harmonic <= 100.0)) {
-      throw Refusal("--harmonic: expected multiples of the speed above 0 and up to 100, found " +
-                    std::to_string(harmonic));
+      throw InputError("--harmonic: expected multiples of the speed above 0 and up to 100, found " +
+                       std::to_string(harmonic));
     }
   }
   if (request.modes < 1 || request.modes > 1000) {
-    throw Refusal("--modes: expected from 1 to 1000, found " + std::to_string(request.modes));
+    throw InputError("--modes: expected from 1 to 1000, found " + std::to_string(request.modes));
   }
 }
 

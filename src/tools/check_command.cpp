@@ -1,8 +1,8 @@
 #include <memory>
 #include <optional>
 
+#include "reports/rotor_systems.h"
 #include "reports/scene_check.h"
-#include "reports/selected_systems.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"

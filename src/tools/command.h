@@ -1,5 +1,5 @@
-// A command of the command line and its options: CLI11, whose headers are read in command.cpp and
-// twin.cpp only. A file that reads them takes seven seconds longer to compile.
+// A command of the command line and its options: CLI11, whose headers are included in command.cpp
+// and twin.cpp only, because they add seven seconds of compile time to a file.
 #pragma once
 
 #include <functional>
@@ -13,19 +13,19 @@ class Option;
 
 namespace whirl_twin {
 
-/// Refers to an option; a copy is the same one.
+/// Reference to an option; a copy refers to the same one.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
-  /// What stands for its value in the help, "" for nothing.
+  /// Placeholder of its value in the help, "" for none.
   Option type(const std::string& name) const;
   Option required() const;
-  /// Only together with another.
+  /// Valid only together with another.
   Option needs(const Option& other) const;
-  /// As many values, all of them.
+  /// Exactly so many values.
   Option values(int count) const;
-  /// One value each time it is said.
+  /// One value per occurrence of the option.
   Option oneByOne() const;
   Option among(const std::vector<std::string>& values) const;
 
@@ -35,20 +35,20 @@ class Option {
   CLI::Option* option_;
 };
 
-/// Refers to a command, or to the command line itself.
+/// Reference to a command, or to the command line itself.
 class ProgramCommand {
  public:
   explicit ProgramCommand(CLI::App* app) : app_(app) {}
 
   ProgramCommand subcommand(const std::string& name, const std::string& description) const;
-  /// value: what it is without the option, and with it once the line is parsed; a string, a number,
-  /// an optional or a vector of either (command.cpp lists them).
+  /// value: the default, and the parsed value once the line is parsed; a string, a number, an
+  /// optional or a vector of either (command.cpp lists them).
   template <class T>
   Option option(const std::string& name, T& value, const std::string& text) const;
   Option flag(const std::string& name, bool& value, const std::string& text) const;
-  /// Below the options in the help.
+  /// Text below the options in the help.
   void footer(const std::string& text) const;
-  /// What the command does, once its options are parsed.
+  /// The function that runs the command, once its options are parsed.
   void callback(const std::function<void()>& run) const;
 
  private:

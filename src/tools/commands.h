@@ -1,9 +1,9 @@
 // The commands of `twin`, one file each. Every function adds its command to the command line; when
-// the command is given, parsing runs it. A command that cannot do its work throws a
-// Refusal or a RunFailure, which main() turns into messages and an exit status.
+// the command is given, parsing runs it. A command that fails throws a InputError or a RunFailure,
+// which main() turns into messages and an exit status.
 #pragma once
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "tools/command.h"
 
 namespace whirl_twin {
@@ -11,9 +11,9 @@ namespace whirl_twin {
 /// Exit statuses of `twin`.
 inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;    ///< the run failed: diverged, a file cannot be written
-inline constexpr int kBadInput = 2;  ///< a scene, a file or an option is wrong
+inline constexpr int kBadInput = 2;  ///< invalid scene, file or option
 
-// `status` outlives the command line; it is what the program exits with if nothing is thrown.
+// `status` outlives the command line; it is the exit status of the program if nothing is thrown.
 void addCheckCommand(const ProgramCommand& twin, int& status);
 void addScenesCommand(const ProgramCommand& twin, int& status);
 void addModelsCommand(const ProgramCommand& twin, int& status);

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "reports/output.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -39,7 +39,7 @@ constexpr const char* kExportFooter =
     "  twin export night.lcmlog --mcap night.mcap\n"
     "  twin export night.bag --csv night --channel '/twin/rotor/*'";
 
-constexpr std::size_t kLongestTopic = 255;  // bytes that are shown
+constexpr std::size_t kMaxTopic = 255;  // bytes that are shown
 
 struct ExportRequest {
   std::string file;
@@ -51,7 +51,7 @@ struct ExportRequest {
   bool json = false;
 };
 
-/// Throws Refusal where there is nothing.
+/// Throws InputError if there are no messages.
 void requireMessages(const ExportRequest& request, const LogExport& log) {
   if (log.messages > 0) {
     return;
@@ -70,7 +70,7 @@ void requireMessages(const ExportRequest& request, const LogExport& log) {
   if (!log.defects.empty()) {
     why += fmt::format("; at byte {}: {}", log.defects.front().offset, log.defects.front().what);
   }
-  throw Refusal(why);
+  throw InputError(why);
 }
 
 std::uint64_t foreignIn(const LogExport& log) {
@@ -86,7 +86,7 @@ std::string exportText(const ExportRequest& request, const LogExport& log,
   std::string out = fmt::format("{}: {} messages of {} topics written to {}\n", request.file,
                                 log.messages, log.topics.size(), output);
   for (const auto& [topic, count] : log.topics) {
-    out += fmt::format("  {:<40} {:>9}\n", printable(topic, kLongestTopic), count);
+    out += fmt::format("  {:<40} {:>9}\n", printable(topic, kMaxTopic), count);
   }
   if (log.not_selected > 0) {
     out += fmt::format("{} not selected\n", log.not_selected);
@@ -200,19 +200,19 @@ int exportLogFile(const ExportRequest& request) {
       requireNew(option, output, request.force);
       std::error_code none;
       if (std::filesystem::equivalent(output, request.file, none)) {
-        throw Refusal(fmt::format("{}: must differ from {}", option, request.file));
+        throw InputError(fmt::format("{}: must differ from {}", option, request.file));
       }
     }
   }
   if (asked != 1) {
-    throw Refusal(fmt::format("expected one of --csv, --bag and --mcap, found {}", asked));
+    throw InputError(fmt::format("expected one of --csv, --bag and --mcap, found {}", asked));
   }
   if (request.compress && (*request.compress != "lz4" || !request.mcap)) {
-    throw Refusal(
+    throw InputError(
         fmt::format("--compress: must be lz4, with --mcap; found '{}'", *request.compress));
   }
   if (request.compress && !McapWriter::has(McapWriter::Compression::kLz4)) {
-    throw Refusal(
+    throw InputError(
         "--compress: built without lz4 (liblz4-dev): run `scripts/setup`, then build again");
   }
   const LogExport log = Export(request).run();

@@ -7,10 +7,10 @@
 
 #include "estimation/fit_study_reader.h"
 #include "estimation/shooting_fit.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
+#include "reports/csv_table.h"
 #include "reports/fit_report.h"
-#include "reports/picture_file.h"
-#include "reports/recorded_run.h"
+#include "reports/measured_file.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"

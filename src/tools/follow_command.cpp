@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "estimation/estimator_scene.h"
 #include "estimation/follow_settings.h"
-#include "estimation/followed_scene.h"
 #include "reports/followed_log.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
@@ -78,12 +78,13 @@ std::unique_ptr<SampleWriter> writerOf(const FollowRequest& request, const Twin&
                                    std::filesystem::absolute(scene).string()),
                          *request.output);
   }
-  throw Refusal(fmt::format("--output: must end in .csv or .lcmlog, found '{}'", *request.output));
+  throw InputError(
+      fmt::format("--output: must end in .csv or .lcmlog, found '{}'", *request.output));
 }
 
 int follow(const FollowRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
-  const Twin twin(readFollowedSceneFile(scenePath(request.scene)));
+  const Twin twin(readEstimatorSceneFile(scenePath(request.scene)));
   const FollowSettings settings =
       request.settings
           ? readFollowSettings(

@@ -1,7 +1,6 @@
 // `twin import`.
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,13 +47,7 @@ int importRotor(const ImportRequest& request) {
     printText(text);
     return kDone;
   }
-  PendingFile file(*request.output);
-  std::ofstream out(file.path(), std::ios::binary);
-  out << text << std::flush;
-  if (!out) {
-    throw RunFailure(fmt::format("{}: cannot be written", *request.output));
-  }
-  file.complete();
+  writeFile(*request.output, text);
   return kDone;
 }
 

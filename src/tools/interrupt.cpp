@@ -19,7 +19,7 @@ constexpr suseconds_t kGrace = 700'000;  // µs, to notice the flag
 void endNow(int) {
   constexpr char kMessage[] = "twin: interrupted; finished results are kept\n";
   const ssize_t written = ::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
-  static_cast<void>(written);  // nobody is left to be told
+  static_cast<void>(written);  // a failure cannot be reported any more
   ::_exit(kFailed);
 }
 

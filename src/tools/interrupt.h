@@ -1,17 +1,17 @@
-// Ctrl-C, for commands that end in order.
+// Handling of Ctrl-C for commands with an orderly end.
 #pragma once
 
 #include <atomic>
 
 namespace whirl_twin {
 
-/// From now on SIGINT and SIGTERM ask for the end, by setting the flag that this returns. Where
-/// nothing asks interrupted() within 0.7 s, because a step of the work takes longer, or where a
-/// second signal comes, the program ends there and then, with exit status 1: all files that are
-/// finished before are whole (twin/durable_file.h).
+/// Installs handlers: SIGINT and SIGTERM request termination by setting the returned flag. If
+/// interrupted() is not called within 0.7 s, because a work step takes longer, or on a second
+/// signal, the program exits at once with status 1: all files finished before are complete
+/// (twin/durable_file.h).
 std::atomic<bool>& catchInterrupts();
 
-/// Whether they have. The caller ends in order then, and takes the time that it needs.
+/// Was an end requested? The caller then ends in an orderly way, without a time limit.
 bool interrupted();
 
 }  // namespace whirl_twin

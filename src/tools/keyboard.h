@@ -1,5 +1,4 @@
-// Keys pressed in a terminal, one by one and without Enter. Where standard input is no terminal
-// there are none.
+// Unbuffered keys of a terminal, without Enter. If standard input is not a terminal there are none.
 #pragma once
 
 #include <termios.h>
@@ -20,7 +19,7 @@ class Keyboard {
 
   bool isThere() const { return there_; }
 
-  /// Waits for a key that means something, at most `timeout`; a signal ends the wait, too.
+  /// Waits at most `timeout` for a known key; a signal also ends the wait.
   std::optional<Key> wait(std::chrono::nanoseconds timeout);
 
  private:

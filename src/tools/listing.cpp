@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "reports/csv_table.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -40,7 +40,7 @@ void requireNames(const std::string& kind, const std::vector<std::string>& asked
     }
   }
   if (!errors.empty()) {
-    throw Refusal(fmt::format("{}", fmt::join(errors, "\ntwin: ")));
+    throw InputError(fmt::format("{}", fmt::join(errors, "\ntwin: ")));
   }
 }
 

@@ -1,5 +1,5 @@
-// What a scene can name, listed: `twin models` and `twin controllers`, as text, JSON and a table of
-// parameters.
+// Listings of the available names: `twin models` and `twin controllers`, as text, JSON and a table
+// of parameters.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace whirl_twin {
 
-/// One thing that can be named.
+/// An entry of a listing.
 struct ListedThing {
   std::string name;
   std::string text;
@@ -22,11 +22,11 @@ struct Listing {
   std::string kind;  ///< "model": the command is its plural, as is the key of the JSON
   const char* description;
   const char* footer;
-  std::function<std::vector<ListedThing>()> all;  ///< asked when the command runs
+  std::function<std::vector<ListedThing>()> all;  ///< called when the command runs
 };
 
-/// Its command takes names, none for all; `status` gets its exit status. It throws Refusal with
-/// every name that there is not.
+/// Its command accepts names, none for all; `status` receives its exit status. It throws InputError
+/// with every unknown name.
 void addListing(const ProgramCommand& twin, int& status, const Listing& listing);
 
 }  // namespace whirl_twin

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reports/csv_table.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -29,7 +29,7 @@ constexpr const char* kLogFooter =
     "  twin simulate demo --output demo.lcmlog && twin log demo.lcmlog\n"
     "  twin log recorded.lcmlog --json";
 
-/// [s]; in double, for a damaged log may hold any 64 bits.
+/// [s]; in double, because a corrupt log may hold any 64 bits.
 double span(const LogSummary& log) {
   return (static_cast<double>(log.last_timestamp) - static_cast<double>(log.first_timestamp)) *
          1.0e-6;
@@ -154,11 +154,11 @@ int summarize(const LogRequest& request) {
   requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
   if (BagScan::isBag(request.file)) {
-    throw Refusal(request.file + ": must be an LCM log, found a rosbag; use `rosbag info`");
+    throw InputError(request.file + ": must be an LCM log, found a rosbag; use `rosbag info`");
   }
   const LogSummary log = readEventLog(request.file, request.lcm_prefix);
   if (log.events == 0) {
-    throw Refusal(
+    throw InputError(
         log.channels.empty()
             ? fmt::format("{}: expected an LCM log, found no event in {} bytes", request.file,
                           log.size)

@@ -1,9 +1,9 @@
 #include <memory>
 #include <optional>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
+#include "reports/csv_table.h"
 #include "reports/loop_report.h"
-#include "reports/picture_file.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -42,12 +42,12 @@ struct LoopRequest {
 int loopsOf(const LoopRequest& request) {
   constexpr double kFastest = 1.0e6;
   if (request.speed && !(*request.speed >= -kFastest && *request.speed <= kFastest)) {
-    throw Refusal("--speed: expected a shaft speed from -1e+06 to 1e+06 rad/s");
+    throw InputError("--speed: expected a shaft speed from -1e+06 to 1e+06 rad/s");
   }
   requirePictureName(request.plot);
   const Scene scene = readSceneFile(scenePath(request.scene));
   if (scene.controllers.empty()) {
-    throw Refusal(request.scene + ": controllers: expected at least one, found none");
+    throw InputError(request.scene + ": controllers: expected at least one, found none");
   }
   const LoopReport report = loopReport(scene, request.speed);
   for (const LoopedController& controller : report.controllers) {

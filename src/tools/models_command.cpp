@@ -56,7 +56,7 @@ std::string listedModelText(const ModelInfo& model) {
          fmt::format("  integrators {}\n", fmt::join(integratorsOf(model.variants.front()), ", "));
 }
 
-/// One form of a model; coordinates whose number depends on the scene have their meaning as text.
+/// One form of a model; if the number of coordinates depends on the scene, their meaning is text.
 Json variantJson(const ModelVariant& v, const std::string& coordinates_meaning) {
   Json json;
   json["linear"] = v.linear;

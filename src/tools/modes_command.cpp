@@ -1,7 +1,8 @@
 #include <memory>
 #include <optional>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
+#include "reports/csv_table.h"
 #include "reports/modes_report.h"
 #include "reports/rotor_record.h"
 #include "tools/commands.h"
@@ -38,16 +39,17 @@ struct ModesRequest {
 void requireModesUse(const ModesRequest& request) {
   constexpr double kFastest = 1.0e6;
   if (request.speed && !(*request.speed >= 0.0 && *request.speed <= kFastest)) {
-    throw Refusal("--speed: expected a shaft speed from 0 to 1e+06 rad/s");
+    throw InputError("--speed: expected a shaft speed from 0 to 1e+06 rad/s");
   }
   if (request.limit && !request.measured) {
-    throw Refusal("--to: needs --measured LOG");
+    throw InputError("--to: needs --measured LOG");
   }
   if (request.options.plot && request.measured) {
-    throw Refusal("--plot: draws the mode shapes of the model; must not be given with --measured");
+    throw InputError(
+        "--plot: draws the mode shapes of the model; must not be given with --measured");
   }
   if (request.modes < 1 || request.modes > 100) {
-    throw Refusal("--modes: expected from 1 to 100, found " + std::to_string(request.modes));
+    throw InputError("--modes: expected from 1 to 100, found " + std::to_string(request.modes));
   }
   requireLcmPrefix(request.lcm_prefix);
 }
@@ -57,7 +59,7 @@ int showModes(const ModesRequest& request) {
   const BuiltScene scene = sceneOf(request.options);
   const auto rotors = rotorSystems(scene, request.options.system);
   if (request.measured && rotors.size() > 1) {
-    throw Refusal("--system: missing; must name the rotor that the log belongs to");
+    throw InputError("--system: missing; must name the rotor that the log belongs to");
   }
   const auto report = [&](const RotorSystem& rotor) {
     return request.measured

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -62,23 +61,12 @@ AlarmSettings settingsOf(const BuiltScene& scene, const std::optional<std::strin
                            {}, stations);
 }
 
-void writePage(const MonitoredLog& run, const std::string& path) {
-  PendingFile file(path);
-  std::ofstream out(file.path(), std::ios::binary);
-  out << page(run) << std::flush;
-  if (!out) {
-    throw RunFailure(path + ": cannot be written");
-  }
-  out.close();
-  file.complete();
-}
-
 int monitor(const MonitorRequest& request) {
   requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
   const AlarmSettings settings = settingsOf(scene, request.settings);
-  AskedCost cost;  // of the speeds that it begins with
+  AskedCost cost;  // for the speeds at the start
   for (const SharedSystem& system : scene.systems) {
     cost += costOfAnalysis(system->spec.name, system->dynamics->dof());
   }
@@ -94,7 +82,7 @@ int monitor(const MonitorRequest& request) {
       });
   progress.clear();
   if (request.output) {
-    writePage(run, *request.output);
+    writeFile(*request.output, page(run));
   }
   if (request.csv) {
     writeCsv(*request.csv, tables(run));

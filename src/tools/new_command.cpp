@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "models/model_registry.h"
-#include "reports/new_scene.h"
+#include "reports/model_text.h"
 #include "reports/output.h"
 #include "scene/yaml_file.h"
 #include "tools/commands.h"
@@ -30,10 +30,10 @@ constexpr const char* kNewFooter =
 struct Example {
   YAML::Node tree;
   std::string system;
-  std::size_t length = 0;  // numbers and tables that it gives
+  std::size_t length = 0;  // its count of numbers and tables
 };
 
-/// Of the systems of this model in the package's scenes the one with the fewest parameters.
+/// The system of this model with the fewest parameters in the package's scenes.
 Example plainest(const std::string& model) {
   Example found;
   for (const std::filesystem::path& file : sceneFiles(shippedSceneFolder())) {
@@ -55,7 +55,7 @@ Example plainest(const std::string& model) {
 int writeNewScene(const std::string& name) {
   const ModelInfo* const model = findModel(name);
   if (model == nullptr) {
-    throw Refusal(fmt::format("no model '{}'{}", name, hint(name, modelNames())));
+    throw InputError(fmt::format("no model '{}'{}", name, hint(name, modelNames())));
   }
   const Example example = plainest(name);
   printText(newScene(*model, example.tree, example.system));

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -15,7 +15,7 @@ void requireNew(const std::string& option, const std::string& path, bool force) 
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   if (!force && (fs::is_regular_file(status) || fs::is_directory(status))) {
-    throw Refusal(fmt::format("{}: '{}' exists; --force overwrites it", option, path));
+    throw InputError(fmt::format("{}: '{}' exists; --force overwrites it", option, path));
   }
 }
 

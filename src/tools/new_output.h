@@ -1,19 +1,19 @@
-// A result that does not take the place of an earlier one unless it is told to.
+// An output file that replaces an existing one only on request.
 #pragma once
 
 #include <string>
 
 namespace whirl_twin {
 
-/// Throws Refusal if there is a file or folder at `path`, unless `force`; a pipe or a device is
-/// none.
+/// Throws InputError if there is a file or folder at `path`, unless `force`; pipes and devices are
+/// allowed.
 void requireNew(const std::string& option, const std::string& path, bool force);
 
-/// A folder that is filled under another name beside it and gets its own when it is complete: a run
-/// that fails leaves nothing behind. Into a folder that is there its files go one by one.
+/// A folder that is filled under a temporary name beside its final one, and renamed when complete:
+/// a failed run leaves no files. If the folder exists, its files are moved in one by one.
 class PendingFolder {
  public:
-  /// Throws RunFailure if it cannot be made.
+  /// Throws RunFailure if it cannot be created.
   explicit PendingFolder(const std::string& path);
   ~PendingFolder();
   PendingFolder(const PendingFolder&) = delete;

@@ -13,7 +13,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::chrono::milliseconds kWaitBetween{500};
-constexpr double kLong = 10.0;  // s, of the processor: on a busy machine nobody is to blame
+constexpr double kLong = 10.0;  // s, of processor time: unaffected by other load
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// What no estimate saw: a command that has worked for ten seconds and said nothing says that it is
-// at work.
+// Progress note for work without a run-time estimate: a command that has used ten seconds of
+// processor time without output reports that it is running.
 #pragma once
 
 #include <condition_variable>
@@ -11,7 +11,7 @@ namespace whirl_twin {
 
 class Patience {
  public:
-  /// `command` is what is at work: "twin analyze".
+  /// `command`: the name in the note, "twin analyze".
   explicit Patience(std::string command);
   ~Patience();
   Patience(const Patience&) = delete;

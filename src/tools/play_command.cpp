@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reports/output.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -48,10 +48,10 @@ using std::chrono::nanoseconds;
 
 constexpr double kSlowestRate = 0.1, kFastestRate = 1000.0;
 constexpr std::int64_t kSecondOfLog = 1'000'000;           // us
-constexpr std::int64_t kLongestWait = 60 * kSecondOfLog;   // of the log, in which nothing happens
+constexpr std::int64_t kMaxWait = 60 * kSecondOfLog;       // of the log, without events
 constexpr std::int64_t kBackAndForth = 10 * kSecondOfLog;  // of the arrows
 constexpr std::uint64_t kUnlookedEvents =
-    256;  // events from one look at the keys to the next, at most
+    256;  // maximum number of events between two polls of the keys
 
 struct PlayRequest {
   std::string file;
@@ -66,7 +66,7 @@ struct PlayRequest {
   bool json = false;
 };
 
-/// Times as fast as recorded; 0: as fast as it goes.
+/// Speed factor relative to the recording; 0: as fast as possible.
 double rateOf(const std::string& text) {
   if (text == "max") {
     return 0.0;
@@ -74,8 +74,8 @@ double rateOf(const std::string& text) {
   char* end = nullptr;
   const double rate = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !(rate >= kSlowestRate && rate <= kFastestRate)) {
-    throw Refusal(fmt::format("--rate: expected {} to {}, or max, found '{}'", kSlowestRate,
-                              kFastestRate, text));
+    throw InputError(fmt::format("--rate: expected {} to {}, or max, found '{}'", kSlowestRate,
+                                 kFastestRate, text));
   }
   return rate;
 }
@@ -83,7 +83,8 @@ double rateOf(const std::string& text) {
 std::int64_t microseconds(const char* option, double seconds) {
   constexpr double kLongest = 1.0e10;
   if (!(seconds >= 0.0 && seconds <= kLongest)) {
-    throw Refusal(fmt::format("{}: expected 0 to {:g} s, found {:g} s", option, kLongest, seconds));
+    throw InputError(
+        fmt::format("{}: expected 0 to {:g} s, found {:g} s", option, kLongest, seconds));
   }
   return std::llround(seconds * static_cast<double>(kSecondOfLog));
 }
@@ -98,13 +99,13 @@ class Player {
             [&request](const std::string& channel) { return selects(request.channels, channel); },
             request.commands) {
     if (!log_.begin()) {
-      throw Refusal(fmt::format("{}: expected an LCM log, found no event in {} bytes", request.file,
-                                log_.size()));
+      throw InputError(fmt::format("{}: expected an LCM log, found no event in {} bytes",
+                                   request.file, log_.size()));
     }
     from_ = *log_.begin() + microseconds("--start", request.start);
     if (request.start > 0.0 && from_ > *log_.end()) {
-      throw Refusal(fmt::format("--start: expected at most the log's {:g} s, found {:g} s",
-                                inSeconds(*log_.end()), request.start));
+      throw InputError(fmt::format("--start: expected at most the log's {:g} s, found {:g} s",
+                                   inSeconds(*log_.end()), request.start));
     }
     until_ = request.duration ? from_ + microseconds("--duration", *request.duration)
                               : std::numeric_limits<std::int64_t>::max();
@@ -121,7 +122,7 @@ class Player {
       const RawEvent* const event = log_.next();
       if (event == nullptr || event->timestamp > until_) {
         if (!loop_ || log_.played().events == played_before_) {
-          break;  // also where there is nothing to play again
+          break;  // also if there is nothing to repeat
         }
         goTo(from_);
         played_before_ = log_.played().events;
@@ -143,7 +144,7 @@ class Player {
   std::uint64_t cuts() const { return cuts_; }
 
  private:
-  /// [s], from the beginning of the log on.
+  /// [s], since the beginning of the log.
   double inSeconds(std::int64_t timestamp) const {
     return static_cast<double>(timestamp - *log_.begin()) / static_cast<double>(kSecondOfLog);
   }
@@ -156,7 +157,7 @@ class Player {
     anchor();
   }
 
-  /// What comes next is due now.
+  /// Makes the next event due now.
   void anchor(nanoseconds later = nanoseconds(0)) {
     anchor_wall_ = Clock::now() + later;
     anchor_log_ = at_;
@@ -169,9 +170,9 @@ class Player {
     anchor();
   }
 
-  /// Waits until it is due; false where a key has led elsewhere.
+  /// Waits until it is due; false if a key has changed the position.
   bool awaits(std::int64_t timestamp) {
-    if (timestamp - at_ > kLongestWait || at_ - timestamp > kSecondOfLog) {
+    if (timestamp - at_ > kMaxWait || at_ - timestamp > kSecondOfLog) {
       ++cuts_;
       at_ = timestamp;
       anchor(std::chrono::seconds(1));

@@ -8,10 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reports/output.h"
-#include "reports/plot_history.h"
-#include "reports/study_plots.h"
 #include "reports/study_report.h"
 #include "reports/system_plots.h"
 #include "scene/yaml_file.h"
@@ -50,24 +48,24 @@ constexpr const char* kPlotFooter =
     "  twin plot my_scene.yaml --output pictures --format png\n"
     "  twin plot study.yaml --results results --output pictures";
 
-constexpr std::int64_t kMostSamples = 100'000;
+constexpr std::int64_t kMaxSamples = 100'000;
 constexpr std::int64_t kEnsembleSamples = 600;
 
 struct PlotRequest {
   SimulationRequest run;
-  std::optional<std::string> results;  // of a study, which then stands for the scene
+  std::optional<std::string> results;  // of a study, given in place of the scene
   std::string folder = ".";
   std::string format = "svg";
 };
 
 ImageFormat formatOf(const std::string& name) {
   if (name != "svg" && name != "png") {
-    throw Refusal(fmt::format("--format: must be svg or png, found '{}'", name));
+    throw InputError(fmt::format("--format: must be svg or png, found '{}'", name));
   }
   return imageFormat("plot." + name);
 }
 
-/// A file whose contents wait for the others'.
+/// A file that is completed together with others.
 class WaitingFile {
  public:
   WaitingFile(const std::string& path, const std::string& contents) : pending_(path), path_(path) {
@@ -88,11 +86,12 @@ class WaitingFile {
   std::string path_;
 };
 
-/// A folder to write into, made with those above it where it is not there. What was made goes again
-/// unless files come into it.
+/// An output folder, created with its parents if missing. Created folders are removed again unless
+/// files are written into them.
 class OutputFolder {
  public:
-  /// Throws Refusal if there is something else of that name, RunFailure if it cannot be made.
+  /// Throws InputError if the name is that of another kind of file, RunFailure if it cannot be
+  /// created.
   explicit OutputFolder(const std::string& name) {
     namespace fs = std::filesystem;
     std::error_code error;
@@ -102,7 +101,7 @@ class OutputFolder {
     }
     fs::create_directories(name, error);
     if (fs::exists(name) && !fs::is_directory(name)) {
-      throw Refusal(fmt::format("--output: must be a folder, found '{}'", name));
+      throw InputError(fmt::format("--output: must be a folder, found '{}'", name));
     }
     if (!fs::is_directory(name)) {
       throw RunFailure(fmt::format("{}: cannot be created: {}", name, error.message()));
@@ -121,7 +120,7 @@ class OutputFolder {
   std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
-/// All of them, or none.
+/// Completes all of them, or none.
 void complete(const std::vector<std::unique_ptr<WaitingFile>>& files) {
   for (const auto& file : files) {
     file->complete();
@@ -130,15 +129,15 @@ void complete(const std::vector<std::unique_ptr<WaitingFile>>& files) {
 
 int plotStudy(const PlotRequest& request, ImageFormat format) {
   if (request.run.system || request.run.duration) {
-    throw Refusal(fmt::format("{}: needs a scene, found the results of a study",
-                              request.run.system ? "--system" : "--duration"));
+    throw InputError(fmt::format("{}: needs a scene, found the results of a study",
+                                 request.run.system ? "--system" : "--duration"));
   }
   const Study study = readStudy(request.run.scene);
   if (study.optimization) {
-    throw Refusal(fmt::format("{}: an optimization has no points to draw", study.source));
+    throw InputError(fmt::format("{}: an optimization has no points to draw", study.source));
   }
   if (!std::filesystem::exists(*request.results + "/manifest.yaml")) {
-    throw Refusal(fmt::format("--results: {} has no results of a study", *request.results));
+    throw InputError(fmt::format("--results: {} has no results of a study", *request.results));
   }
   const ResultFolder results(*request.results, study, true);
   const StudyStatus status = statusOf(study, results);
@@ -161,7 +160,7 @@ int plotStudy(const PlotRequest& request, ImageFormat format) {
   return kDone;
 }
 
-/// So that who gives a study for a scene is told.
+/// Detects a study given in place of a scene, for a helpful error.
 bool isStudy(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) {
     return false;
@@ -169,7 +168,7 @@ bool isStudy(const std::string& path) {
   try {
     const YAML::Node tree = readYamlFile(path, "a scene", "systems");
     return tree.IsMap() && tree["study"] && tree["measure"];
-  } catch (const Refusal&) {  // what reads scenes says why
+  } catch (const InputError&) {  // the reader of scenes reports why
     return false;
   }
 }
@@ -180,12 +179,12 @@ int plot(const PlotRequest& request) {
     return plotStudy(request, format);
   }
   if (isStudy(request.run.scene)) {
-    throw Refusal("--results: missing; must be the folder written by `twin sweep`");
+    throw InputError("--results: missing; must be the folder written by `twin sweep`");
   }
   SimulationPlan plan = planSimulation(request.run);
   const OutputFolder made(request.folder);
   const std::filesystem::path folder = request.folder;
-  plan.stride = 1 + plan.steps / kMostSamples;
+  plan.stride = 1 + plan.steps / kMaxSamples;
   Simulation simulation(plan);
   const std::int64_t samples = plan.steps / plan.stride;
   PlotHistoryWriter writer(simulation.twin(), plan.systems, 1 + samples / kEnsembleSamples);

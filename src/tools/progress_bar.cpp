@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::size_t kWidth = 40;
 constexpr std::chrono::milliseconds kInterval{100};
-constexpr double kPaceCheck = 0.02;        // s, from one look to the next
-constexpr std::int64_t kMostSteps = 1024;  // likewise: a look costs as much as a cheap step
-constexpr double kJudged = 1.0;            // s, after which the pace is known
+constexpr double kPaceCheck = 0.02;       // s, between two polls
+constexpr std::int64_t kMaxSteps = 1024;  // likewise: a poll costs as much as a cheap step
+constexpr double kJudged = 1.0;           // s, after which the pace is measured
 
-/// Onto the terminal, with its control characters.
+/// Prints to the terminal, with its control characters.
 void putOnTerminal(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
@@ -54,13 +54,13 @@ std::int64_t ProgressBar::show(std::int64_t step) {
          of_one * static_cast<double>(steps_ - step));
   }
   return static_cast<std::int64_t>(
-      std::clamp(kPaceCheck / std::max(of_one, 1.0e-9), 1.0, static_cast<double>(kMostSteps)));
+      std::clamp(kPaceCheck / std::max(of_one, 1.0e-9), 1.0, static_cast<double>(kMaxSteps)));
 }
 
 void ProgressBar::draw(double part, double left) {
   const auto filled = static_cast<std::size_t>(std::min(part, 1.0) * kWidth);
   putOnTerminal(fmt::format("\r[{}{}] {:3.0f} %, {} remaining\033[K", std::string(filled, '#'),
-                            std::string(kWidth - filled, ' '), 100.0 * part, inWords(left)));
+                            std::string(kWidth - filled, ' '), 100.0 * part, durationText(left)));
   drawn_ = true;
 }
 

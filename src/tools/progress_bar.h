@@ -1,6 +1,6 @@
-// How far a run has come: a bar with the time left, on standard error where a person watches it
-// (a terminal that is not also the one the results go to), else a line where it takes more than ten
-// seconds. What will take more than a day, as its first second tells, is refused.
+// Progress of a run: a bar with the remaining time, on standard error if that is an interactive
+// terminal (and not also the one that the results go to), else one line for a run of more than ten
+// seconds. A run whose first second predicts more than a day is rejected.
 #pragma once
 
 #include <chrono>
@@ -11,17 +11,18 @@ namespace whirl_twin {
 
 class ProgressBar {
  public:
-  /// `asked`, so many steps: the number that makes it long, "--duration: 100 s".
-  /// results_on_standard_output: rows scroll by there while the run goes on. `insist`: whatever it
-  /// takes.
+  /// `asked`: the option that sets the run length, "--duration: 100 s"; `steps` in number.
+  /// results_on_standard_output: rows are printed there during the run. `insist`: no limit on the
+  /// run time.
   ProgressBar(std::string asked, std::int64_t steps, bool results_on_standard_output, bool insist);
   ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// So many are done. Returns after how many more to show it again. Throws Refusal, see above.
+  /// `step` steps are done. Returns the number of steps until the next call. Throws InputError, see
+  /// above.
   std::int64_t show(std::int64_t step);
-  /// Takes the bar away, for a message or the end.
+  /// Removes the bar, for a message or at the end.
   void clear();
 
  private:

@@ -7,9 +7,9 @@
 #include <memory>
 #include <optional>
 
+#include "messages/input_error.h"
 #include "messages/message_check.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "reports/output.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -84,7 +84,7 @@ class Recording {
     }
   }
 
-  /// Hands it to the file system.
+  /// Flushes it to the file system.
   void flush() {
     if (log_) {
       log_->finish();
@@ -102,7 +102,7 @@ class Recording {
     pending_.complete();
   }
 
-  /// As it is: after a failure to write, what came before is still worth having.
+  /// Keeps the incomplete file: after a write error the data written before remain useful.
   void keep() { pending_.complete(); }
 
   const std::string& path() const { return path_; }
@@ -142,7 +142,7 @@ class Recorder {
       rethrow();
     }
     constexpr int kAll = 100000;
-    tap_.receive(std::chrono::microseconds(0), kAll);  // what arrived before the end
+    tap_.receive(std::chrono::microseconds(0), kAll);  // messages that arrived before the end
     attempt([this] { file_->finish(); });
     rethrow();
   }
@@ -191,7 +191,7 @@ class Recorder {
     first_.reset();
   }
 
-  /// LCM's callbacks must not throw: a failure waits for the loop.
+  /// LCM's callbacks must not throw: a failure is stored for the loop.
   template <class Write>
   void attempt(Write&& write) {
     try {
@@ -254,7 +254,7 @@ std::string recordText(const Recorder& recorder) {
 void requireAbove(const char* option, const std::optional<double>& value, double least,
                   const char* unit) {
   if (value && !(*value >= least && std::isfinite(*value))) {
-    throw Refusal(
+    throw InputError(
         fmt::format("{}: expected at least {:g} {}, found {:g}", option, least, unit, *value));
   }
 }
@@ -263,10 +263,10 @@ int record(const RecordRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
   const std::string extension = std::filesystem::path(request.file).extension();
   if (extension != ".lcmlog" && extension != ".mcap") {
-    throw Refusal(fmt::format("FILE: must end in .lcmlog or .mcap, found '{}'", request.file));
+    throw InputError(fmt::format("FILE: must end in .lcmlog or .mcap, found '{}'", request.file));
   }
   if (request.all && extension == ".mcap") {
-    throw Refusal("--all: an MCAP file has the twin's channels only; record FILE.lcmlog");
+    throw InputError("--all: an MCAP file has the twin's channels only; record FILE.lcmlog");
   }
   requireAbove("--duration", request.duration, 0.0, "s");
   requireAbove("--split-time", request.split_time, 0.001, "s");

@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reports/rotor_report.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
@@ -49,17 +46,6 @@ void makeFolder(const std::string& name) {
   }
 }
 
-void writeReportPage(const std::string& path, const std::string& page) {
-  PendingFile pending(path);
-  std::ofstream file(pending.path(), std::ios::binary);
-  file << page;
-  file.close();
-  if (!file) {
-    throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
-  }
-  pending.complete();
-}
-
 int reportOf(ReportRequest& request) {
   for (const std::vector<double>& s : request.centrifugal) {
     request.report.stages.push_back({s[0], s[1], s[2], s[3], false});
@@ -77,7 +63,7 @@ int reportOf(ReportRequest& request) {
   for (std::size_t i = 0; i < systems.size(); ++i) {
     const std::filesystem::path path =
         std::filesystem::path(request.output) / (systems[i].name + ".html");
-    writeReportPage(path.string(), pages[i]);
+    writeFile(path.string(), pages[i]);
     printText(path.string() + "\n");
   }
   return kDone;

@@ -8,7 +8,6 @@
 
 #include "reports/csv_table.h"
 #include "reports/output.h"
-#include "reports/picture_file.h"
 #include "reports/rotor_systems.h"
 #include "scene/built_scene.h"
 #include "tools/command.h"
@@ -33,7 +32,7 @@ int printReport(bool as_json, const Json& json, const std::string& text);
 int printReport(const ReportOptions& options, const Json& json, const std::string& text,
                 const CsvTables& tables);
 
-/// Reads and builds the scene. Throws Refusal, also for names of files that cannot be written.
+/// Reads and builds the scene. Throws InputError, also for names of files that cannot be written.
 BuiltScene sceneOf(const ReportOptions& options);
 
 /// `make` gives the report of a rotor that json(), text() and tables() take, `draw` its picture.

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "reports/asked_cost.h"
-#include "reports/forced_report.h"
 #include "reports/response_report.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"

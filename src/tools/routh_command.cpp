@@ -11,10 +11,10 @@
 #include "analysis/polynomial_roots.h"
 #include "analysis/routh.h"
 #include "analysis/stability_margins.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reports/asked_cost.h"
+#include "reports/report_values.h"
 #include "reports/routh_report.h"
-#include "reports/verdict_text.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
@@ -47,8 +47,9 @@ constexpr const char* kRouthFooter =
     "  twin routh 1 2 K 3 --parameter K\n"
     "  twin routh 1 0.2+3i 5-0.1i";
 
-constexpr double kExactBudget = 1.0e9;    // products of words: seconds
-constexpr std::size_t kWidestTable = 31;  // coefficients, whose table is shown
+constexpr double kExactBudget = 1.0e9;  // products of machine words: seconds
+// maximum number of coefficients for which the table is shown
+constexpr std::size_t kWidestTable = 31;
 
 struct RouthJudgement {
   RouthResult routh;
@@ -59,7 +60,7 @@ struct RouthJudgement {
   double log_decrement = 0.0;
 };
 
-/// `parse` of what was typed; what it refuses is said of each.
+/// Applies `parse` to each argument; collects the errors.
 template <class Parse>
 auto parseCoefficients(const std::vector<std::string>& typed, const Parse& parse) {
   std::vector<decltype(parse(typed.front()))> coefficients;
@@ -67,13 +68,13 @@ auto parseCoefficients(const std::vector<std::string>& typed, const Parse& parse
   for (std::size_t i = 0; i < typed.size(); ++i) {
     try {
       coefficients.push_back(parse(typed[i]));
-    } catch (const Refusal& error) {
+    } catch (const InputError& error) {
       errors.push_back(
           fmt::format("coefficient {} (of s^{}): {}", i + 1, typed.size() - 1 - i, error.what()));
     }
   }
   if (!errors.empty()) {
-    throw Refusal(fmt::format("{}", fmt::join(errors, "\ntwin: ")));
+    throw InputError(fmt::format("{}", fmt::join(errors, "\ntwin: ")));
   }
   return coefficients;
 }
@@ -83,7 +84,7 @@ ComplexRational parseCoefficient(const std::string& typed) {
   return complex ? parseComplex(typed) : ComplexRational{parseSymbolic(typed, "").at(0), 0};
 }
 
-/// Numbers beyond double, which roots() takes, are brought into its range; roots do not change.
+/// Scales numbers outside the range of double, as required by roots(); the roots do not change.
 std::vector<std::complex<double>> coefficientsInRange(
     const std::vector<ComplexRational>& coefficients) {
   Rational largest = 0;
@@ -105,7 +106,7 @@ std::vector<std::complex<double>> coefficientsInRange(
   return rounded;
 }
 
-/// Where the roots lie as computed; on the axis are those that rounding could put on either side.
+/// Location of the computed roots; those within rounding of the axis count as on it.
 RouthResult countsOf(const std::vector<std::complex<double>>& roots) {
   constexpr double kRounding = 1.0e-9;
   RouthResult counts;
@@ -132,7 +133,7 @@ RouthJudgement judge(const std::vector<ComplexRational>& coefficients, bool real
   if (!std::all_of(judgement.roots.begin(), judgement.roots.end(), [](const auto& root) {
         return std::isfinite(root.real()) && std::isfinite(root.imag());
       })) {
-    throw Refusal(
+    throw InputError(
         "coefficients: a root exceeds 1.8e308, the largest double; use a larger unit for s");
   }
   ExactBudget budget(kExactBudget);
@@ -145,7 +146,7 @@ RouthJudgement judge(const std::vector<ComplexRational>& coefficients, bool real
   return judgement;
 }
 
-/// The margins, with roots on the axis where the exact test puts them.
+/// The margins, with roots placed on the axis according to the exact test.
 void addMargins(RouthJudgement& j) {
   double rightmost = -std::numeric_limits<double>::infinity();
   double ratio = std::numeric_limits<double>::quiet_NaN();
@@ -182,7 +183,7 @@ Json judgementJson(const RouthJudgement& j) {
   return json;
 }
 
-/// Routh's table, where there is one, and the roots.
+/// Routh's table, if there is one, and the roots.
 CsvTables judgementTables(const RouthJudgement& j, const std::optional<RouthTable>& table) {
   CsvTable roots{"roots", {"re", "im"}};
   for (const auto& root : j.roots) {
@@ -211,14 +212,14 @@ struct RouthRequest {
   bool insist = false;
 };
 
-/// A name that no number can be taken for.
+/// Throws InputError unless it is a symbol that cannot be confused with a number.
 void requireSymbol(const std::string& symbol) {
   const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
   const bool name =
       !symbol.empty() && std::isalpha(static_cast<unsigned char>(symbol[0])) != 0 &&
       std::all_of(symbol.begin(), symbol.end(), [&](char c) { return letter(c) || c == '_'; });
   if (!name || symbol == "e" || symbol == "E" || symbol == "s") {
-    throw Refusal(fmt::format(
+    throw InputError(fmt::format(
         "--parameter: expected a name such as K (letters and digits, not e or s), found '{}'",
         symbol));
   }
@@ -231,7 +232,7 @@ int testForParameter(const RouthRequest& request) {
       request.coefficients, [&](const std::string& typed) { return parseSymbolic(typed, symbol); });
   if (std::all_of(coefficients.begin(), coefficients.end(),
                   [](const SymbolicPolynomial& c) { return c.constant(); })) {
-    throw Refusal(fmt::format("--parameter: no coefficient contains {}", symbol));
+    throw InputError(fmt::format("--parameter: no coefficient contains {}", symbol));
   }
   ExactBudget budget(kExactBudget);
   const StabilityRange range = stabilityRange(coefficients, budget);
@@ -258,7 +259,7 @@ int test(const RouthRequest& request) {
       parseCoefficients(request.coefficients, parseCoefficient);
   if (std::all_of(coefficients.begin(), coefficients.end(),
                   [](const ComplexRational& c) { return c.re == 0 && c.im == 0; })) {
-    throw Refusal("coefficients: at least one must not be zero, found none");
+    throw InputError("coefficients: at least one must not be zero, found none");
   }
   const bool real = std::all_of(coefficients.begin(), coefficients.end(),
                                 [](const ComplexRational& c) { return c.im == 0; });

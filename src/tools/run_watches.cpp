@@ -52,7 +52,7 @@ std::vector<std::string> ValidityWatch::look(const Observer& observer) {
     }
     const BuiltSystem& system = *twin_.systems()[i];
     const auto n = static_cast<Eigen::Index>(system.spec.q.size());
-    const Moment<double> at = observer.moment(i);
+    const EvaluationPoint<double> at = observer.moment(i);
     for (const Condition& c :
          validity(*system.dynamics, Eigen::Map<const Eigen::VectorXd>(observer.coordinates(i), n),
                   Eigen::Map<const Eigen::VectorXd>(observer.rates(i), n), at)) {

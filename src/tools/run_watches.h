@@ -1,5 +1,5 @@
-// Looks for systems that their steps no longer follow as accurately as `integrator: auto` promised:
-// what a live twin's monitor calls ACCURACY_LOST.
+// Accuracy watch during a run: detects systems whose error exceeds the bound of `integrator: auto`;
+// a live twin's monitor raises ACCURACY_LOST for that.
 #pragma once
 
 #include <map>
@@ -16,13 +16,13 @@ namespace whirl_twin {
 
 class AccuracyWatch {
  public:
-  /// Of the chosen systems (indices into the scene) those that say `auto`. The twin outlives it.
+  /// Of the chosen systems (indices into the scene) those with `auto`. The twin outlives it.
   AccuracyWatch(const Twin& twin, const std::vector<std::size_t>& systems);
 
-  /// At the newest record: a warning for each system whose running estimate exceeds its tolerance
-  /// for the first time.
+  /// Evaluates the newest record: a warning for each system whose running error estimate exceeds
+  /// its tolerance for the first time.
   std::vector<std::string> look(const Observer& observer);
-  /// [s], simulated, since when; nothing: it has been as accurate all along.
+  /// [s], simulated time of the loss; empty: accurate all along.
   std::optional<double> lostAt(std::size_t system) const;
 
  private:
@@ -31,19 +31,18 @@ class AccuracyWatch {
   std::map<std::size_t, double> lost_;  // since when, by system
 };
 
-// Warns when the equations of a system stop describing its machine, once for each condition.
+// Warns when the model of a system leaves its range of validity, once for each condition.
 
 class ValidityWatch {
  public:
   ValidityWatch(const Twin& twin, const std::vector<std::size_t>& systems);
 
-  /// Is there a condition that any step can break?
+  /// Are there any conditions to watch?
   bool watches() const { return !watched_.empty(); }
-  /// Looks at the newest step. Returns a sentence for each condition that broke in it for the
-  /// first time.
+  /// Evaluates the newest step. Returns one message for each condition first violated in it.
   std::vector<std::string> look(const Observer& observer);
 
-  /// [{condition, meaning, unit, first_time, worst_margin}] of those that broke.
+  /// [{condition, meaning, unit, first_time, worst_margin}] of the violated ones.
   Json json(std::size_t system) const;
 
  private:

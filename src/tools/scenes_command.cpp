@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "reports/output.h"
 #include "scene/scene_reader.h"
 #include "tools/commands.h"
@@ -34,14 +34,14 @@ constexpr const char* kScenesFooter =
 
 struct SceneEntry {
   std::string name;   ///< of the file, without .yaml
-  std::string about;  ///< what it shows: the first paragraph of its opening comment
-  std::string watch;  ///< what to watch: the rest of that comment
+  std::string about;  ///< its subject: the first paragraph of its opening comment
+  std::string watch;  ///< the rest of that comment: remarkable features
   std::string path;
   Scene scene;
-  std::string refusal;  ///< why it cannot be read; "" if it can
+  std::string inputError;  ///< why it cannot be read; "" if it can
 };
 
-/// The comment a file opens with, as paragraphs of running text.
+/// The opening comment of a file, as paragraphs of running text.
 std::vector<std::string> openingComment(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::vector<std::string> paragraphs{""};
@@ -69,14 +69,14 @@ SceneEntry readEntry(const std::filesystem::path& file) {
   try {
     entry.scene = readSceneFile(file);
   } catch (const SceneError& error) {
-    entry.refusal = error.errors().front();
+    entry.inputError = error.errors().front();
   }
   return entry;
 }
 
 std::string sceneEntryText(const SceneEntry& entry) {
-  if (!entry.refusal.empty()) {
-    return fmt::format("{}\n  cannot be read: {}\n", entry.name, entry.refusal);
+  if (!entry.inputError.empty()) {
+    return fmt::format("{}\n  cannot be read: {}\n", entry.name, entry.inputError);
   }
   std::string systems;
   for (const SystemSpec& system : entry.scene.systems) {
@@ -91,7 +91,7 @@ Json sceneEntryJson(const SceneEntry& entry) {
   json["path"] = entry.path;
   json["about"] = entry.about;
   json["watch"] = entry.watch;
-  json["refusal"] = entry.refusal.empty() ? Json() : Json(entry.refusal);
+  json["refusal"] = entry.inputError.empty() ? Json() : Json(entry.inputError);
   json["systems"] = Json::object();
   for (const SystemSpec& system : entry.scene.systems) {
     json["systems"][system.name] = system.model;
@@ -104,8 +104,8 @@ int listScenes(const std::optional<std::string>& folder, bool as_json) {
       folder ? std::filesystem::path(*folder) : shippedSceneFolder();
   std::error_code error;
   if (!std::filesystem::is_directory(where, error)) {
-    throw Refusal(folder ? fmt::format("{}: must be a folder of scene files", *folder)
-                         : "the scenes of the package were not found; give their folder");
+    throw InputError(folder ? fmt::format("{}: must be a folder of scene files", *folder)
+                            : "the scenes of the package were not found; give their folder");
   }
   Json all;
   all["folder"] = where.string();
@@ -124,7 +124,7 @@ int listScenes(const std::optional<std::string>& folder, bool as_json) {
   return kDone;
 }
 
-/// The scene as it is written, comments and all, to read or to begin a scene of one's own with.
+/// The text of the scene file, comments included, to read or to start a new scene from.
 int showScene(const std::string& name, bool as_json) {
   const std::string path = scenePath(name);
   std::error_code error;
@@ -133,12 +133,12 @@ int showScene(const std::string& name, bool as_json) {
     for (const std::filesystem::path& file : sceneFiles(shippedSceneFolder())) {
       names.push_back(file.stem());
     }
-    throw Refusal(fmt::format("--show: no scene '{}'{}", name, hint(name, names)));
+    throw InputError(fmt::format("--show: no scene '{}'{}", name, hint(name, names)));
   }
   std::ifstream in(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in) {
-    throw Refusal(fmt::format("--show: {}: cannot be read", path));
+    throw InputError(fmt::format("--show: {}: cannot be read", path));
   }
   if (as_json) {
     printJson({{"path", path}, {"text", text}});

@@ -1,4 +1,4 @@
-// The scenes that come with the package.
+// The scenes of the package.
 #pragma once
 
 #include <filesystem>
@@ -7,15 +7,15 @@
 
 namespace whirl_twin {
 
-/// Where they are: beside the installed program, or in the source it was built from. Empty if
-/// neither is there.
+/// Their folder: beside the installed program, or in the source that it was built from. Empty if
+/// neither exists.
 std::filesystem::path shippedSceneFolder();
 
 /// The scene files of a folder, sorted by name.
 std::vector<std::filesystem::path> sceneFiles(const std::filesystem::path& folder);
 
-/// The file that is meant by SCENE on the command line: a path, or the name of a shipped scene as
-/// roslaunch takes it.
+/// The file for the argument SCENE on the command line: a path, or the name of a shipped scene as
+/// in roslaunch.
 std::string scenePath(const std::string& scene);
 
 }  // namespace whirl_twin

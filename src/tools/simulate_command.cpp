@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "messages/refusal.h"
-#include "reports/members_table.h"
+#include "messages/input_error.h"
 #include "reports/output.h"
+#include "reports/sample_writer.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -42,16 +42,17 @@ constexpr const char* kSimulateFooter =
     "  twin simulate demo --duration 1e4 --checkpoint run.checkpoint --json\n"
     "  twin simulate demo --system pendulum --integrator runge_kutta_4 --step 0.0005 --json";
 
-/// ".csv", ".lcmlog" or ".mcap". Throws Refusal.
+/// ".csv", ".lcmlog" or ".mcap". Throws InputError.
 std::string extensionOf(const std::string& output) {
   std::string extension = std::filesystem::path(output).extension();
   if (extension != ".csv" && extension != ".lcmlog" && extension != ".mcap") {
-    throw Refusal(fmt::format("--output: must end in .csv, .lcmlog or .mcap, found '{}'", output));
+    throw InputError(
+        fmt::format("--output: must end in .csv, .lcmlog or .mcap, found '{}'", output));
   }
   return extension;
 }
 
-/// With what the options replace of the file.
+/// The scene with the replacements of the options.
 state::SceneText simulatedScene(const SimulationRequest& request, const SimulationPlan& plan) {
   YAML::Node tree = readYamlFile(plan.path, "a scene", "systems");
   if (request.step) {
@@ -79,12 +80,12 @@ void requireOneEnsemble(const SimulationPlan& plan) {
       std::count_if(plan.systems.begin(), plan.systems.end(),
                     [&](std::size_t i) { return plan.scene.systems[i].ensemble.count > 0; });
   if (ensembles != 1) {
-    throw Refusal(fmt::format("--members: needs one system with a count, found {}{}", ensembles,
-                              ensembles > 1 ? "; choose one by --system" : ""));
+    throw InputError(fmt::format("--members: needs one system with a count, found {}{}", ensembles,
+                                 ensembles > 1 ? "; choose one by --system" : ""));
   }
 }
 
-/// A run without the processes that a scene's controllers are in is another one.
+/// Warns that a run without the processes of a scene's external controllers differs.
 void sayWhatIsMissing(const Scene& scene) {
   for (const ControllerSpec& controller : scene.controllers) {
     if (controller.type == "external") {
@@ -101,16 +102,16 @@ int simulate(const SimulationRequest& request) {
     extensionOf(*request.output);
   }
   if (request.measure && (!request.output || extensionOf(*request.output) == ".csv")) {
-    throw Refusal("--measure: needs --output FILE.lcmlog or FILE.mcap for the measurements");
+    throw InputError("--measure: needs --output FILE.lcmlog or FILE.mcap for the measurements");
   }
   if (request.members && std::filesystem::path(*request.members).extension() != ".csv") {
-    throw Refusal(fmt::format("--members: must end in .csv, found '{}'", *request.members));
+    throw InputError(fmt::format("--members: must end in .csv, found '{}'", *request.members));
   }
   if (request.members && request.members == request.output) {
-    throw Refusal("--members: must differ from --output");
+    throw InputError("--members: must differ from --output");
   }
   if (request.measure && request.resume) {
-    throw Refusal("--measure: must not be given with --resume");
+    throw InputError("--measure: must not be given with --resume");
   }
   const SimulationPlan plan = planSimulation(request);
   sayWhatIsMissing(plan.scene);

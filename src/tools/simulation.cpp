@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "realtime/denormals.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
@@ -18,7 +18,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr auto kSavePeriod = std::chrono::seconds(5);
-constexpr std::int64_t kStepsAtOnce = 16;  // before an interrupt is looked for
+constexpr std::int64_t kStepsAtOnce = 16;  // between two polls for an interrupt
 
 }  // namespace
 
@@ -31,29 +31,29 @@ Simulation::Simulation(const SimulationPlan& plan)
       accuracy_(twin_, plan_.systems),
       stopped_(plan.scene.systems.size()) {
   twin_.buildEnsembles();
-  // Before a writer begins its file, which an interrupted run takes away.
+  // Before a writer opens its file, which an interrupted run removes.
   catchInterrupts();
   if (plan_.checkpoint || plan_.resume) {
     checkpoint_.scene = sceneLines(YAML::LoadFile(plan_.path), twin_);
   }
   if (plan_.resume) {
-    goOnFrom(*plan_.resume);
+    resumeFrom(*plan_.resume);
   }
 }
 
-void Simulation::goOnFrom(const std::string& path) {
+void Simulation::resumeFrom(const std::string& path) {
   const Checkpoint from = readCheckpoint(path);
   requireScene(from, checkpoint_.scene, path);
   if (from.live["changes"]) {
-    throw Refusal(
+    throw InputError(
         fmt::format("{}: parameters were changed live; resume it with simulation_node", path));
   }
   if (from.step >= plan_.steps) {
-    throw Refusal(fmt::format("--duration: must be more than the {} steps of {}, found {} steps",
-                              from.step, path, plan_.steps));
+    throw InputError(fmt::format("--duration: must be more than the {} steps of {}, found {} steps",
+                                 from.step, path, plan_.steps));
   }
-  putBack(from, twin_, path);
-  putBack(from, observer_, path);
+  restore(from, twin_, path);
+  restore(from, observer_, path);
   for (std::size_t i = 0; i < stopped_.size(); ++i) {
     if (twin_.status(i) != StepStatus::kOk) {
       const YAML::Node stopped = from.live["stopped"][plan_.scene.systems[i].name];
@@ -75,7 +75,7 @@ void Simulation::save() {
 }
 
 void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
-  const DenormalsToZero denormals_to_zero;  // as the real-time loop does: the same numbers
+  const DenormalsToZero denormals_to_zero;  // as in the real-time loop: identical numbers
   ProgressBar bar(plan_.asked(), plan_.steps, results_on_standard_output, plan_.insist);
   std::vector<double> record(twin_.layout().size);
   warn(bar);
@@ -133,7 +133,7 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
   }
 }
 
-/// At least a step, to one that is to be observed: the one that is due or one before it.
+/// Advances by at least a step, to one that must be observed: the one due or one before it.
 std::int64_t Simulation::stepUnseen(std::int64_t due) {
   const std::int64_t at_once = observer_.looks() ? 1 : kStepsAtOnce;
   std::int64_t i = twin_.stepCount();
@@ -145,7 +145,7 @@ std::int64_t Simulation::stepUnseen(std::int64_t due) {
   }
 }
 
-/// As stepUnseen(), where the writer follows every record.
+/// As stepUnseen(), with every record passed to the writer.
 std::int64_t Simulation::stepFollowed(std::int64_t due, SampleWriter& writer,
                                       std::vector<double>& record) {
   std::int64_t i = twin_.stepCount();
@@ -220,7 +220,7 @@ Json Simulation::systemJson(std::size_t system) const {
     json["whirl_phase"] = observer_.whirlPhase(system);
   }
   if (stopped_[system]) {
-    json["energy"] = nullptr;  // the shaft has gone on without it
+    json["energy"] = nullptr;  // the shaft has continued without it
   } else {
     const Energies e = observer_.energies(system);
     json["energy"] = {{"kinetic", e.kinetic}, {"potential", e.potential}, {"jacobi", e.jacobi}};

@@ -1,4 +1,4 @@
-// A run of a scene from its start, as fast as it goes.
+// A run of a scene from its start, as fast as possible.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace whirl_twin {
 
-/// What `twin simulate` is asked for.
+/// The arguments of `twin simulate`.
 struct SimulationRequest {
   std::string scene;  ///< path
   std::optional<std::string> system;
@@ -27,13 +27,13 @@ struct SimulationRequest {
   std::optional<std::string> output;
   std::optional<std::string> members;     ///< path of their table
   std::optional<std::string> measure;     ///< one of the scene's sensors, or `sensors`: all of them
-  std::optional<std::string> checkpoint;  ///< path, where the run is saved
-  std::optional<std::string> resume;      ///< path of one that it goes on from
+  std::optional<std::string> checkpoint;  ///< path for the state of the run
+  std::optional<std::string> resume;      ///< path of a checkpoint to resume from
   bool json = false;
   bool insist = false;
 };
 
-/// A request that has been checked.
+/// A validated request.
 struct SimulationPlan {
   Scene scene;
   std::vector<std::size_t> systems;  ///< those that are shown
@@ -42,34 +42,34 @@ struct SimulationPlan {
   std::int64_t stride = 1;                ///< steps from one sample to the next
   bool insist = false;                    ///< however long it takes
   std::string path;                       ///< of the scene
-  std::optional<std::string> checkpoint;  ///< path, where the run is saved
-  std::optional<std::string> resume;      ///< path of one that it goes on from
+  std::optional<std::string> checkpoint;  ///< path for the state of the run
+  std::optional<std::string> resume;      ///< path of a checkpoint to resume from
 
-  /// The numbers that make it long: "--duration: 100 s, 100000 steps".
+  /// The settings that determine its length: "--duration: 100 s, 100000 steps".
   std::string asked() const;
 };
 
-/// Reads the scene and checks the options against it. Throws SceneError or Refusal.
+/// Reads the scene and checks the options against it. Throws SceneError or InputError.
 SimulationPlan planSimulation(const SimulationRequest& request);
 
 class Simulation {
  public:
-  /// From now on SIGINT and SIGTERM end a run in order. Throws Refusal for a checkpoint that it
-  /// cannot go on from.
+  /// From now on SIGINT and SIGTERM end a run in an orderly way. Throws InputError for a checkpoint
+  /// that cannot be resumed.
   explicit Simulation(const SimulationPlan& plan);
 
   /// Runs to the end. `writer` may be null. A system that stops is reported on standard error and
-  /// the others go on. Throws RunFailure if SIGINT or SIGTERM ends it before.
+  /// the others continue. Throws RunFailure if SIGINT or SIGTERM ends it before.
   void run(SampleWriter* writer, bool results_on_standard_output);
 
   const Twin& twin() const { return twin_; }
-  /// All systems of the plan are still running.
+  /// Are all systems of the plan still running?
   bool sound() const;
-  /// The final state of everything.
+  /// The final state of all systems.
   Json json() const;
 
  private:
-  void goOnFrom(const std::string& path);
+  void resumeFrom(const std::string& path);
   void save();
   std::int64_t stepUnseen(std::int64_t due);
   std::int64_t stepFollowed(std::int64_t due, SampleWriter& writer, std::vector<double>& record);

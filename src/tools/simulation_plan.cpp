@@ -5,14 +5,14 @@
 
 #include "accuracy/step_choice.h"
 #include "integration/step_methods.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "models/model_registry.h"
 #include "reports/asked_cost.h"
-#include "reports/selected_systems.h"
+#include "reports/rotor_systems.h"
 #include "scene/drive_reader.h"
+#include "scene/model_context.h"
 #include "scene/scene_reader.h"
-#include "scene/surroundings.h"
 #include "scene/system_setup.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -25,8 +25,8 @@ namespace {
 
 constexpr const char* kAllSensors = "sensors";
 
-constexpr std::int64_t kLongestRun = 1'000'000'000 * kSecond;  // as long as a drive can be timed
-constexpr double kDefaultDuration = 10.0;                      // s
+constexpr std::int64_t kMaxRun = 1'000'000'000 * kSecond;  // the maximum time of a drive
+constexpr double kDefaultDuration = 10.0;                  // s
 
 /// The longest drive profile, or 10 s, in whole samples.
 std::int64_t defaultSteps(const SimulationPlan& plan) {
@@ -37,34 +37,34 @@ std::int64_t defaultSteps(const SimulationPlan& plan) {
   if (duration == 0.0) {
     duration = kDefaultDuration;
   }
-  if (duration > static_cast<double>(kLongestRun) / kSecond) {
-    throw Refusal(
+  if (duration > static_cast<double>(kMaxRun) / kSecond) {
+    throw InputError(
         fmt::format("--duration: the drive's profile lasts {:.3g} s; give a duration up "
                     "to {}",
-                    duration, inSeconds(kLongestRun)));
+                    duration, inSeconds(kMaxRun)));
   }
   const double sample = plan.scene.stepSeconds() * static_cast<double>(plan.stride);
-  // A profile that lasts whole samples but for rounding is not worth another one.
+  // A duration of whole samples up to rounding is not extended by another one.
   return plan.stride * static_cast<std::int64_t>(std::ceil(duration / sample - 1.0e-6));
 }
 
 void overrideIntegrator(const std::string& name, SimulationPlan& plan) {
   const auto& names = integratorNames();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
-    throw Refusal(fmt::format("--integrator: no integrator '{}'{}", name, hint(name, names)));
+    throw InputError(fmt::format("--integrator: no integrator '{}'{}", name, hint(name, names)));
   }
   std::vector<std::string> objections;
   for (const std::size_t i : plan.systems) {
     SystemSpec& spec = plan.scene.systems[i];
     const ModelSetup& setup = setupOf(spec, surroundingsOf(plan.scene, spec)).made;
-    const std::string objection = integratorObjection(setup, spec.drive.has_value(), name);
+    const std::string objection = integratorDiagnostic(setup, spec.drive.has_value(), name);
     if (!objection.empty()) {
       objections.push_back(fmt::format("--integrator: {}: {}", spec.name, objection));
     }
     spec.integrator = name;
   }
   if (!objections.empty()) {
-    throw Refusal(fmt::format("{}", fmt::join(objections, "\ntwin: ")));
+    throw InputError(fmt::format("{}", fmt::join(objections, "\ntwin: ")));
   }
 }
 
@@ -79,10 +79,10 @@ std::vector<SensorSpec> selectedSensors(const Scene& scene, const std::string& n
     }
   }
   if (selected.empty()) {
-    throw Refusal(scene.sensors.empty()
-                      ? fmt::format("--measure: {} has no sensors", scene.source)
-                      : fmt::format("--measure: no sensors '{}' in {}{}", printable(name),
-                                    scene.source, hint(name, names)));
+    throw InputError(scene.sensors.empty()
+                         ? fmt::format("--measure: {} has no sensors", scene.source)
+                         : fmt::format("--measure: no sensors '{}' in {}{}", printable(name),
+                                       scene.source, hint(name, names)));
   }
   return selected;
 }
@@ -107,11 +107,11 @@ SimulationPlan planSimulation(const SimulationRequest& request) {
   }
   const std::int64_t step = plan.scene.step;
   if (request.sample) {
-    plan.stride = parseNanoseconds("--sample", *request.sample, step, kLongestRun, step) / step;
+    plan.stride = parseNanoseconds("--sample", *request.sample, step, kMaxRun, step) / step;
   }
   plan.scene = withStepsChosen(plan.scene);
   plan.steps = request.duration
-                   ? parseNanoseconds("--duration", *request.duration, 0, kLongestRun, step) / step
+                   ? parseNanoseconds("--duration", *request.duration, 0, kMaxRun, step) / step
                    : defaultSteps(plan);
   plan.insist = request.insist;
   tell(costOfRun(build(plan.scene)), plan.insist);

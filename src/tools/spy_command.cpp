@@ -7,10 +7,9 @@
 #include <memory>
 #include <optional>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "reports/live_lines.h"
-#include "reports/message_text.h"
 #include "reports/output.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -49,7 +48,7 @@ struct SpyRequest {
   bool json = false;
 };
 
-/// How much has come on a channel, or came a second.
+/// Number of messages and bytes on a channel, in total or per second.
 struct Flow {
   double events = 0.0;
   double bytes = 0.0;
@@ -84,7 +83,7 @@ class Spy {
         lines_.show(table(rates_));
       }
     }
-    // What was sent before the end: on a busy machine it has yet to be taken from the socket.
+    // Messages sent before the end: on a busy machine they may still be in the socket buffer.
     constexpr int kAll = 100000;
     constexpr double kLongest = 0.5;  // s
     const auto ended = Clock::now();
@@ -198,7 +197,7 @@ class Spy {
 int spy(const SpyRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
   if (request.duration && !(*request.duration > 0.0 && std::isfinite(*request.duration))) {
-    throw Refusal(fmt::format("--duration: must be above 0 s, found {:g}", *request.duration));
+    throw InputError(fmt::format("--duration: must be above 0 s, found {:g}", *request.duration));
   }
   catchInterrupts();
   Spy spy(request);

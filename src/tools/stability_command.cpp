@@ -32,7 +32,7 @@ struct StabilityRequest {
   std::vector<std::vector<double>> centrifugal, axial;
 };
 
-/// Each stage that was given, as many numbers as it takes.
+/// Each given stage, with its number of values.
 void takeStages(StabilityRequest& request) {
   for (const std::vector<double>& s : request.centrifugal) {
     request.level_one.stages.push_back({s[0], s[1], s[2], s[3], false});

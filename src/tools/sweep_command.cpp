@@ -10,9 +10,8 @@
 #include <thread>
 #include <utility>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reports/asked_cost.h"
-#include "reports/optimum_report.h"
 #include "reports/output.h"
 #include "reports/study_report.h"
 #include "studies/block_evaluator.h"
@@ -103,7 +102,7 @@ Share shareOf(const std::optional<std::string>& text) {
       return share;
     }
   }
-  throw Refusal(fmt::format("--part: must be I/N with 1 <= I <= N, found '{}'", *text));
+  throw InputError(fmt::format("--part: must be I/N with 1 <= I <= N, found '{}'", *text));
 }
 
 template <class Report>
@@ -115,7 +114,7 @@ void print(const SweepRequest& request, const Study& study, const Report& report
   }
 }
 
-/// Said besides the report, for those who read only that something went wrong.
+/// Reports failures on standard error as well, for users who do not read the report.
 int failed(const std::string& why) {
   complain("twin: " + why + "\n");
   return kFailed;
@@ -123,7 +122,7 @@ int failed(const std::string& why) {
 
 int runPoint(const SweepRequest& request, const Study& study, const std::atomic<bool>& stop) {
   if (*request.point >= study.points()) {
-    throw Refusal(
+    throw InputError(
         fmt::format("--point: must be from 0 to {}, found {}", study.points() - 1, *request.point));
   }
   const StepsChosen steps = request.output
@@ -141,7 +140,7 @@ int runPoint(const SweepRequest& request, const Study& study, const std::atomic<
              : failed(fmt::format("point {}: {}", point.point, point.outcome.failure));
 }
 
-/// A bar for the points of these blocks.
+/// Progress bar for the points of these blocks.
 SweepProgress progressOf(const Study& study, const std::vector<std::uint64_t>& blocks,
                          bool insist) {
   std::uint64_t of = 0;
@@ -165,7 +164,7 @@ int runOptimization(const SweepRequest& request, const Study& study,
        {request.mixed, "--mixed"}}};
   for (const auto& [given, name] : for_points) {
     if (given) {
-      throw Refusal(fmt::format(
+      throw InputError(fmt::format(
           "{}: needs a study with a design; {} is an optimization, whose result is printed", name,
           study.source));
     }
@@ -211,7 +210,7 @@ int tellAnswers(const SweepRequest& request, const Study& study, const ResultFol
              : failed(fmt::format("{}/failed.csv: all points failed", *request.output));
 }
 
-/// How many processes mpirun or srun has started together; 1: this one alone.
+/// Number of processes that mpirun or srun has started together; 1: this one alone.
 int ranksStarted() {
   for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
     if (const char* const count = std::getenv(name)) {
@@ -236,7 +235,7 @@ int sweepAmongRanks(const SweepRequest& request, std::atomic<bool>& stop) {
     }
     const Study study = readStudy(request.study);
     if (study.optimization) {
-      throw Refusal(study.source + ": an optimization must run in one process, without mpirun");
+      throw InputError(study.source + ": an optimization must run in one process, without mpirun");
     }
     const ResultFolder folder(*request.output, study, request.mixed);
     const unsigned workers = std::max(1U, request.workers);
@@ -249,26 +248,26 @@ int sweepAmongRanks(const SweepRequest& request, std::atomic<bool>& stop) {
     ranks.lead(study, folder, workers, blocks, stop, progressOf(study, blocks, request.insist));
     return tellAnswers(request, study, folder);
   } catch (const std::exception& error) {
-    if (ranks.first() || !interrupted()) {  // which the first tells
+    if (ranks.first() || !interrupted()) {  // rank 0 reports an interrupt
       complain(fmt::format("twin: {}{}\n", ranks.first() ? "" : ranks.name() + ": ", error.what()));
     }
-    ranks.end(dynamic_cast<const Refusal*>(&error) != nullptr ? kBadInput : kFailed);
+    ranks.end(dynamic_cast<const InputError*>(&error) != nullptr ? kBadInput : kFailed);
   }
 #else
   static_cast<void>(request);
   static_cast<void>(stop);
-  throw Refusal(
+  throw InputError(
       "built without MPI, needed for mpirun: run scripts/setup --studies, then build again");
 #endif
 }
 
 int sweepStudy(const SweepRequest& request) {
   if (request.workers > 4096) {
-    throw Refusal(fmt::format("--workers: must be from 1 to 4096, found {}", request.workers));
+    throw InputError(fmt::format("--workers: must be from 1 to 4096, found {}", request.workers));
   }
   static_cast<void>(shareOf(request.part));
   std::atomic<bool>& stop = catchInterrupts();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is like a disk that is full
+  std::signal(SIGXFSZ, SIG_IGN);  // the file size limit is handled like a full disk
   const bool whole = !request.point && !request.part && !request.merge && !request.status;
   if (whole && request.output && ranksStarted() > 1) {
     return sweepAmongRanks(request, stop);
@@ -276,7 +275,7 @@ int sweepStudy(const SweepRequest& request) {
   const Study study = readStudy(request.study);
   if (study.optimization) {
     if (ranksStarted() > 1) {
-      throw Refusal(study.source + ": an optimization must run in one process, without mpirun");
+      throw InputError(study.source + ": an optimization must run in one process, without mpirun");
     }
     return runOptimization(request, study, stop);
   }
@@ -284,11 +283,11 @@ int sweepStudy(const SweepRequest& request) {
     return runPoint(request, study, stop);
   }
   if (!request.output) {
-    throw Refusal("--output: missing; must be the folder of the results");
+    throw InputError("--output: missing; must be the folder of the results");
   }
   if ((request.status || request.merge) &&
       !std::filesystem::exists(*request.output + "/manifest.yaml")) {
-    throw Refusal(fmt::format("--output: {} has no results of a study", *request.output));
+    throw InputError(fmt::format("--output: {} has no results of a study", *request.output));
   }
   const auto points = static_cast<double>(study.points());
   const auto columns = static_cast<double>(study.measures.size() + 1);  // one is sorted beside

@@ -2,14 +2,13 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 
 #include "accuracy/trajectory.h"
-#include "messages/refusal.h"
-#include "reports/picture_file.h"
-#include "reports/selected_systems.h"
+#include "messages/input_error.h"
+#include "reports/csv_table.h"
+#include "reports/rotor_systems.h"
 #include "reports/tradeoff_report.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
@@ -48,33 +47,21 @@ struct TradeoffRequest {
 
 void requireTableName(const std::optional<std::string>& path) {
   if (path && (path->size() < 5 || path->substr(path->size() - 4) != ".csv")) {
-    throw Refusal("--output: must end in .csv, found '" + *path + "'");
+    throw InputError("--output: must end in .csv, found '" + *path + "'");
   }
 }
 
-void writeTable(const std::string& path, const std::vector<TradeoffReport>& reports) {
-  PendingFile file(path);
-  std::ofstream out(file.path());
-  out << csv(reports);
-  out.close();
-  if (!out) {
-    throw RunFailure(path + ": could not be written");
-  }
-  file.complete();
-}
+constexpr std::int64_t kMaxHorizon = 1'000'000 * kSecond;  // ns
 
-constexpr std::int64_t kLongestHorizon = 1'000'000 * kSecond;  // ns
-
-/// The horizon of the system, which has to be a duration that can be run. [ns]
+/// The horizon of the system, which must be a valid run duration. [ns]
 std::int64_t horizonOf(const Scene& one) {
   const SystemSpec& spec = one.systems.front();
   const double horizon = 1.0e9 * spec.horizon;
-  if (!(horizon >= static_cast<double>(one.step) &&
-        horizon <= static_cast<double>(kLongestHorizon))) {
-    throw Refusal(
+  if (!(horizon >= static_cast<double>(one.step) && horizon <= static_cast<double>(kMaxHorizon))) {
+    throw InputError(
         fmt::format("{}: the horizon, {:g} s, is outside the range of --duration; --duration: must "
                     "be from {} to {}",
-                    spec.name, spec.horizon, inSeconds(one.step), inSeconds(kLongestHorizon)));
+                    spec.name, spec.horizon, inSeconds(one.step), inSeconds(kMaxHorizon)));
   }
   return static_cast<std::int64_t>(horizon);
 }
@@ -86,7 +73,7 @@ int tradeoffOf(const TradeoffRequest& request) {
   const std::vector<std::size_t> systems = selectedSystems(scene, request.system);
   std::optional<std::int64_t> asked;  // [ns]
   if (request.duration) {
-    asked = parseNanoseconds("--duration", *request.duration, scene.step, kLongestHorizon);
+    asked = parseNanoseconds("--duration", *request.duration, scene.step, kMaxHorizon);
   }
   constexpr std::int64_t kParts = 1000;
   ProgressBar bar(fmt::format("--duration: {}", request.duration.value_or("the horizon")),
@@ -107,7 +94,7 @@ int tradeoffOf(const TradeoffRequest& request) {
     }
   }
   if (request.output) {
-    writeTable(*request.output, reports);
+    writeFile(*request.output, csv(reports));
   }
   Json all;
   std::string words;

@@ -10,8 +10,8 @@
 #ifdef WHIRL_TWIN_PLUGINS
 #include "plugins/plugins.h"
 #endif
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "reports/output.h"
 #include "scene/node_reader.h"
 #include "scene/scene_reader.h"
@@ -57,7 +57,7 @@ std::vector<std::string> optionNames(const CLI::App& command) {
   return all;
 }
 
-/// What is wrong with the usage, with a hint where a name was nearly right.
+/// The error in the usage, with a hint for a misspelled name.
 void explain(const CLI::App& twin, const CLI::ParseError& error) {
   const auto given = twin.get_subcommands();
   const CLI::App& command = given.empty() ? twin : *given.front();
@@ -73,7 +73,7 @@ void explain(const CLI::App& twin, const CLI::ParseError& error) {
   complain(fmt::format("{}: {}\n`{} --help` prints its usage.\n", name, what, name));
 }
 
-/// A command that does not exist, said before CLI11 takes it for a stray argument.
+/// Reports an unknown command before CLI11 treats it as a stray argument.
 bool unknownCommand(const CLI::App& twin, const std::vector<std::string>& arguments) {
   if (arguments.empty()) {
     complain(fmt::format("twin: expected a command{}\n", hint("", names(twin))));
@@ -167,7 +167,7 @@ int main(int argc, char** argv) {
   } catch (const whirl_twin::SceneError& error) {
     whirl_twin::complain(fmt::format("{}\n", error.what()));
     return whirl_twin::kBadInput;
-  } catch (const whirl_twin::Refusal& error) {
+  } catch (const whirl_twin::InputError& error) {
     whirl_twin::complain(fmt::format("twin: {}\n", error.what()));
     return whirl_twin::kBadInput;
   } catch (const std::exception& error) {

@@ -8,13 +8,12 @@
 #include <optional>
 
 #include "algebra/constants.h"
+#include "messages/input_error.h"
 #include "messages/loop_statistics.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "monitoring/run_filter.h"
 #include "monitoring/whirl_vibration.h"
 #include "reports/live_lines.h"
-#include "reports/message_text.h"
 #include "reports/output.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
@@ -53,7 +52,7 @@ double wallTime() {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
-/// The newest of a kind, and when it came.
+/// The newest message of a kind, and its time of arrival.
 template <class State>
 struct Heard {
   std::optional<State> newest;
@@ -63,7 +62,7 @@ struct Heard {
     newest = state;
     at = Clock::now();
   }
-  /// [s], of those that come once a second; "" while they do.
+  /// [s], of messages sent once a second; "" without a timeout.
   std::string silence(const char* who) const {
     constexpr double kPatience = 3.0;  // s
     return secondsSince(at) > kPatience
@@ -75,7 +74,7 @@ struct Heard {
 struct System {
   std::optional<state::WhirlState> whirl;
   WhirlVibration followed;  // of the whirl
-  double vibration = kNaN;  // m, what that measures: the amplitude over a revolution
+  double vibration = kNaN;  // m, the measured vibration: the amplitude over a revolution
   std::optional<state::PendulumState> pendulum;
   std::optional<state::StabilityMargin> margin;
 };
@@ -150,7 +149,7 @@ class Watch {
   void take(const state::MonitorStatus& monitor) {
     monitor_.take(monitor);
     if (monitor.alerts == 0) {
-      alerts_.clear();  // that they were cleared may have been lost
+      alerts_.clear();  // the message that cleared them may have been lost
     }
   }
   void take(const state::WhirlState& whirl) {
@@ -172,7 +171,7 @@ class Watch {
     }
   }
   template <class State>
-  void take(const State&) {}  // not asked for
+  void take(const State&) {}  // not required
 
   std::vector<std::string> lines() const {
     if (!heard()) {
@@ -293,7 +292,7 @@ class Watch {
 int watch(const WatchRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
   if (request.duration && !(*request.duration > 0.0 && std::isfinite(*request.duration))) {
-    throw Refusal(fmt::format("--duration: must be above 0 s, found {:g}", *request.duration));
+    throw InputError(fmt::format("--duration: must be above 0 s, found {:g}", *request.duration));
   }
   catchInterrupts();
   Watch watch(request);

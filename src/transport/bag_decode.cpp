@@ -21,12 +21,13 @@ const RosValue* find(const RosValues& values, const char* name) {
   return found == values.end() ? nullptr : &found->second;
 }
 
-/// Puts the values of a bag's message into the fields of an LCM type, which fromLcm() judges. A
-/// field that the bag does not know, because it came later, stays as nothing has set it.
+/// Copies the values of a message of a bag into the fields of an LCM type, which fromLcm()
+/// validates. A field that the definition in the bag lacks, because it was added later, keeps its
+/// default.
 template <class State>
 class BagFill : public FieldVisit<BagFill<State>> {
  public:
-  /// subject: whom a message is about by its topic.
+  /// subject: the system, drive or source by the topic.
   BagFill(const RosValues& values, const std::string& subject, LcmType<State>& message)
       : values_(values), subject_(subject), message_(message) {}
 
@@ -87,7 +88,7 @@ class BagFill : public FieldVisit<BagFill<State>> {
     }
   };
 
-  /// A command need not say it.
+  /// The frame_id of a command may be empty.
   void putSubject(std::string& to) const {
     put("header.frame_id", to);
     if (State::kKind.has(MessageKind::kCommand) && to.empty()) {
@@ -146,7 +147,7 @@ class BagFill : public FieldVisit<BagFill<State>> {
   LcmType<State>& message_;
 };
 
-/// What stands in a topic where one `like` it has a *; "" where it has none.
+/// The part of `topic` at the * of the pattern `like`; "" if the pattern has no *.
 std::string subjectIn(const std::string& topic, const std::string& like) {
   const std::size_t star = like.find('*');
   return star == std::string::npos || topic.size() < like.size()
@@ -154,7 +155,7 @@ std::string subjectIn(const std::string& topic, const std::string& like) {
              : topic.substr(star, topic.size() + 1 - like.size());
 }
 
-/// A topic in two: its last parts, as many as `like` has, and the namespace above them.
+/// Splits a topic into the namespace and its last parts, as many as `like` has.
 std::pair<std::string, std::string> apart(const std::string& topic, const std::string& like) {
   std::size_t slash = topic.size();
   for (auto parts = 1 + std::count(like.begin(), like.end(), '/'); parts > 0 && slash > 0;
@@ -213,8 +214,8 @@ Message BagDecoder::decode(const BagMessage& message) {
   return std::move(*decoded);
 }
 
-/// Angles by the names of the joints, rates by those with _rate; the source is the topic's last
-/// part.
+/// Angles by the names of the joints, rates with the suffix _rate; the source is the last part of
+/// the topic.
 Message BagDecoder::jointState(const RosValues& values) {
   const auto take = [&](const char* name) {
     const RosValue* const value = find(values, name);
@@ -243,7 +244,7 @@ Message BagDecoder::jointState(const RosValues& values) {
   block.first_instant = stamp.empty() ? 0 : stamp.front();
   block.instant = {block.first_instant};
   block.at = {blocks_++, 1.0e-9 * static_cast<double>(block.first_instant), block.first_instant};
-  return fromLcm<state::Measurement>(toLcm(block));  // which asks whether it can be meant
+  return fromLcm<state::Measurement>(toLcm(block));  // validates
 }
 
 }  // namespace whirl_twin

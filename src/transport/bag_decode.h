@@ -1,5 +1,5 @@
-// A message of a rosbag -> one of the twin's, with nothing taken on trust. ROS's generated types
-// are not needed: fields are found by their names in the definition that the bag has.
+// Decodes a message of a rosbag, which is not trusted, into one of the twin's. ROS's generated
+// types are not needed: fields are found by name in the definition in the bag.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@
 
 namespace whirl_twin {
 
-/// The messages of a connection of a bag.
+/// Decoder of the messages of one connection of a bag.
 class BagDecoder {
  public:
-  /// Throws RejectedMessage for a definition that cannot be read.
+  /// Throws RejectedMessage for an invalid definition.
   explicit BagDecoder(const BagConnection& connection);
 
-  /// Of the twin's messages, and of sensor_msgs/JointState, which are measured; else null.
+  /// Of the twin's messages, and of sensor_msgs/JointState (decoded as measurements); else null.
   const MessageKind* kind() const { return kind_; }
-  /// What the channels of the twin or machine would begin with on LCM, by the topic's namespace:
-  /// MACHINE_ for /machine/measured/probes; "" for a topic without one.
+  /// LCM prefix of the twin or the machine by the namespace of the topic: MACHINE_ for
+  /// /machine/measured/probes; "" for a topic without one.
   const std::string& prefix() const { return prefix_; }
   bool isJointState() const { return joint_state_; }
 
-  /// Throws RejectedMessage for what is damaged, cannot be meant, or is about another than its
-  /// topic.
+  /// Throws RejectedMessage for a corrupt or invalid message, or one whose content does not match
+  /// its topic.
   Message decode(const BagMessage& message);
 
  private:
@@ -37,7 +37,7 @@ class BagDecoder {
   const MessageKind* kind_ = nullptr;
   bool joint_state_ = false;
   std::optional<RosLayout> layout_;
-  std::int64_t blocks_ = 0;  ///< of joint states
+  std::int64_t blocks_ = 0;  ///< number of joint states decoded
 };
 
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "transport/unpack.h"
 
 namespace whirl_twin {
@@ -17,7 +17,7 @@ constexpr std::string_view kAnyBag = "#ROSBAG V";
 constexpr std::uint64_t kMaxHeader = 1 << 16;        // bytes; topics and names of types
 constexpr std::uint64_t kPieceLength = 1 << 20;      // bytes read at a time
 constexpr std::uint64_t kBagSearchLength = 1 << 16;  // bytes searched at a time
-constexpr std::uint64_t kFarBack = 64;  // bytes from a chunk's begin to its op, at most
+constexpr std::uint64_t kFarBack = 64;  // bytes from the begin of a chunk to its field op, at most
 constexpr std::string_view kChunkField{"\4\0\0\0op=\5", 8};
 
 std::uint32_t littleEndian32(const void* bytes) {
@@ -28,7 +28,7 @@ std::uint32_t littleEndian32(const void* bytes) {
 
 using FoundFields = std::map<std::string, std::string, std::less<>>;
 
-/// Header fields; none if the bytes are not a whole number of them.
+/// Header fields; none if the bytes end within a field.
 std::optional<FoundFields> fieldsOf(const std::uint8_t* bytes, std::size_t size) {
   FoundFields fields;
   while (size > 0) {
@@ -63,7 +63,7 @@ std::string fieldText(const FoundFields& fields, std::string_view name) {
   return found == fields.end() ? "" : found->second;
 }
 
-/// What is wrong, and where; caught by next().
+/// Position and description of a defect; caught by next().
 struct Damage {
   std::uint64_t offset;
   std::string what;
@@ -71,14 +71,15 @@ struct Damage {
 
 }  // namespace
 
-/// The header of a record, and how long its data are.
+/// Header of a record, and the length of its data.
 struct BagScan::Record {
   FoundFields fields;
   int op = 0;
   std::uint64_t header = 0;  ///< [bytes], with both lengths
-  std::uint64_t size = 0;    ///< [bytes], of the data, as it says
+  std::uint64_t size = 0;    ///< [bytes], length of the data by the record
 
-  /// Of bytes of which `left` are there; none with what is wrong in `why`.
+  /// Reads the record at `bytes`, of which `left` are available; on failure none, with the reason
+  /// in `why`.
   static std::optional<Record> read(const std::uint8_t* bytes, std::uint64_t left,
                                     std::string& why) {
     Record record;
@@ -120,7 +121,7 @@ bool BagScan::isBag(const std::string& path) {
 BagScan::BagScan(const std::string& path) : file_(path) {
   if (file_.size() < kBagMagic.size() ||
       !std::equal(kBagMagic.begin(), kBagMagic.end(), file_.at(0, kBagMagic.size()))) {
-    throw Refusal(
+    throw InputError(
         fmt::format("{}: must be a rosbag of version 2.0 ('#ROSBAG V2.0' and a new line), found "
                     "another header in {} bytes",
                     path, file_.size()));
@@ -131,14 +132,14 @@ BagScan::BagScan(const std::string& path) : file_(path) {
   const auto first = Record::read(file_.at(at_, std::min(left, kMaxHeader + 8)),
                                   std::min(left, kMaxHeader + 8), why);
   if (first && first->op == kBagHeader && !fieldText(first->fields, "encryptor").empty()) {
-    throw Refusal(fmt::format("{}: must not be encrypted, found a bag encrypted by {}", path,
-                              fieldText(first->fields, "encryptor")));
+    throw InputError(fmt::format("{}: must not be encrypted, found a bag encrypted by {}", path,
+                                 fieldText(first->fields, "encryptor")));
   }
   readIndex(first);
 }
 
-/// The index at the end tells every connection again: without it the loss of the chunk that tells
-/// one first would be that of all its messages.
+/// The index at the end of the file repeats every connection: without it, the loss of the chunk
+/// with the first occurrence of a connection would lose all its messages.
 void BagScan::readIndex(const std::optional<Record>& header) {
   const std::string place = header ? fieldText(header->fields, "index_pos") : "";
   const std::uint64_t begin = at_;
@@ -153,7 +154,7 @@ void BagScan::readIndex(const std::optional<Record>& header) {
         nextOfFile(none);
       }
     } catch (const Damage&) {
-      // The rest of it is not known.
+      // The index is corrupt from here on.
     }
   }
   chunk_.clear();
@@ -175,7 +176,8 @@ BagScan::Found BagScan::next(BagMessage& message) {
   }
 }
 
-/// The next record of the chunk: is it a message? After damage the rest of the chunk is left out.
+/// Reads the next record of the chunk; true if it is a message. A corrupt record skips the rest of
+/// the chunk.
 bool BagScan::nextOfChunk(BagMessage& message) {
   const std::size_t begin = chunk_at_;
   const std::uint64_t left = chunk_.size() - begin;
@@ -198,8 +200,8 @@ bool BagScan::nextOfChunk(BagMessage& message) {
   return take(*record, chunk_.data() + begin + record->header, message);
 }
 
-/// The next record of the file: is it a message? Those outside of chunks are of a recording that
-/// was broken off within one. After damage it goes on at the next chunk.
+/// Reads the next record of the file; true if it is a message. Messages outside chunks are those of
+/// a chunk whose recording was interrupted. A corrupt record skips to the next chunk.
 bool BagScan::nextOfFile(BagMessage& message) {
   const std::uint64_t begin = at_;
   const std::uint64_t left = file_.size() - begin;
@@ -228,12 +230,12 @@ bool BagScan::nextOfFile(BagMessage& message) {
   return take(*record, readable ? file_.at(data_at, record->size) : nullptr, message);
 }
 
-/// A connection is kept; a message of a known one is given.
+/// Stores a connection; passes on a message of a known one.
 bool BagScan::take(const Record& record, const std::uint8_t* data, BagMessage& message) {
   const auto id = number(record.fields, "conn");
   if (record.op == kBagConnection && id && data != nullptr && record.size <= kMaxPayload) {
     if (const auto fields = fieldsOf(data, record.size)) {
-      // Not exchanged where it is told again, for others hold on to it.
+      // A repeated connection does not replace the first, to which messages refer.
       connections_.try_emplace(
           *id,
           BagConnection{fieldText(record.fields, "topic"), fieldText(*fields, "type"),
@@ -259,7 +261,7 @@ bool BagScan::take(const Record& record, const std::uint8_t* data, BagMessage& m
   return true;
 }
 
-/// Reads a chunk, as much as there is of it, without its compression.
+/// Reads and decompresses a chunk, including an incomplete one.
 void BagScan::openChunk(const Record& record, std::uint64_t data_at) {
   const std::uint64_t begin = at_;
   const std::string compression = fieldText(record.fields, "compression");
@@ -270,10 +272,10 @@ void BagScan::openChunk(const Record& record, std::uint64_t data_at) {
   chunk_offset_ = data_at;
   chunk_compressed_ = compression != "none";
   if (record.size == 0 && expected == 0 && !chunk_compressed_) {
-    at_ = data_at;  // broken off before it was complete: its records follow
+    at_ = data_at;  // interrupted before its size was written: its records follow
     return;
   }
-  // One that is compressed and was broken off says that it is empty.
+  // A compressed chunk that was interrupted has the size 0.
   const std::uint64_t size = std::min(record.size == 0 ? left : record.size, left);
   at_ = data_at + size;
   if (size > kMaxChunk) {
@@ -294,11 +296,11 @@ void BagScan::openChunk(const Record& record, std::uint64_t data_at) {
     why = fmt::format("expected {} bytes of records, found {}", expected, chunk_.size());
   }
   if (!why.empty()) {
-    throw Damage{begin, "a chunk: " + why};  // what there is of it is read next
+    throw Damage{begin, "a chunk: " + why};  // its decompressed part is read next
   }
 }
 
-/// Where the next chunk begins, or the end of the file.
+/// Offset of the next chunk, or the end of the file.
 std::uint64_t BagScan::findChunk(std::uint64_t from) {
   while (from + kChunkField.size() <= file_.size()) {
     const std::uint64_t length = std::min(kBagSearchLength, file_.size() - from);
@@ -318,7 +320,7 @@ std::uint64_t BagScan::findChunk(std::uint64_t from) {
       }
       from = field + 1;
     } else {
-      from += length - (kChunkField.size() - 1);  // one may lie across the edge
+      from += length - (kChunkField.size() - 1);  // the field may cross the boundary
     }
   }
   return file_.size();

@@ -8,9 +8,9 @@
 namespace whirl_twin {
 namespace {
 
-constexpr std::size_t kBagHeaderSize = 4096;  // bytes of the bag's own record
+constexpr std::size_t kBagHeaderSize = 4096;  // bytes of the bag header record
 
-/// Fields of a header, or of the data of a connection.
+/// Serializes the fields of a header, or of the data of a connection.
 class BagFields {
  public:
   BagFields() = default;
@@ -51,7 +51,7 @@ void putBagRecord(const BagFields& header, const LittleEndian& data, LittleEndia
   to.block(data);
 }
 
-/// The bag's own record, filled up with blanks so that it can be written over at the end.
+/// The bag header record, padded with blanks so that it can be overwritten at the end.
 LittleEndian bagHeader(std::uint64_t index, std::size_t connections, std::uint32_t chunks) {
   BagFields fields(kBagHeader);
   fields.number("index_pos", index, 8);

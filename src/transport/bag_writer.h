@@ -1,5 +1,5 @@
-// rosbags (format 2.0, see bag_scan.h), without ROS: chunks that are not compressed, each with an
-// index by connection and time, and at the end where everything is.
+// Writes rosbags (format 2.0, see bag_scan.h) without ROS: uncompressed chunks, each with an index
+// by connection and time, and an index of the file at its end.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class BagWriter final : public RecordingWriter {
  private:
   struct Connection {
     std::uint32_t id = 0;
-    /// Of the messages in the chunk: time [ns] and offset [bytes].
+    /// Of each message in the chunk: time [ns] and offset [bytes].
     std::vector<std::pair<std::int64_t, std::uint32_t>> index;
   };
   Connection& connectionOf(const RecordedTopic& topic);
@@ -33,9 +33,9 @@ class BagWriter final : public RecordingWriter {
 
   OutputFile file_;
   std::map<std::string, Connection> connections_;  ///< by RecordedTopic::key()
-  std::vector<Connection*> in_chunk_;              ///< those with messages in the chunk
+  std::vector<Connection*> in_chunk_;              ///< connections with messages in the chunk
   LittleEndian chunk_;
-  // Records for the end.
+  // Records of the index at the end of the file.
   LittleEndian connection_records_, chunk_records_;
   std::uint32_t chunks_ = 0;
 };

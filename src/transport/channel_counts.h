@@ -1,5 +1,4 @@
-// What has come over the channels of a twin: how much, how much of it is missing by its steps, and
-// what could not be meant.
+// Statistics of the channels of a twin: events, events missing by their steps, invalid events.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +14,18 @@ namespace whirl_twin {
 class ChannelCounts {
  public:
   struct Count {
-    std::string kind;  ///< "whirl", ...; "other" if it is not the twin's
+    std::string kind;  ///< "whirl", ...; "other" if it is not a channel of the twin
     std::uint64_t events = 0;
     std::uint64_t bytes = 0;
     std::uint64_t rejected = 0;
     StepContinuity steps;
-    std::int64_t first = 0, last = 0;  ///< [us], received
-    std::optional<Message> newest;     ///< that could be meant
+    std::int64_t first = 0, last = 0;  ///< [us], reception
+    std::optional<Message> newest;     ///< latest valid message
   };
 
   explicit ChannelCounts(std::string prefix) : prefix_(std::move(prefix)) {}
 
-  /// Returns what it says, where it is a twin's and can be meant.
+  /// Returns the decoded message if the channel is the twin's and the message is valid.
   const Message* add(const std::string& channel, std::int64_t received, const std::uint8_t* data,
                      std::size_t size);
 

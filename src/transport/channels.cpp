@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 
 namespace whirl_twin {
 namespace {
@@ -91,14 +91,14 @@ std::string lcmPrefixOf(const std::string& twin_namespace) {
 
 void requireLcmPrefix(const std::string& prefix) {
   if (!isLegalName(prefix)) {
-    throw Refusal(fmt::format(
-        "lcm_prefix: expected a letter and then letters, digits or _, found {}", quoted(prefix)));
+    throw InputError(fmt::format(
+        "lcm_prefix: expected a letter and then letters, digits or _, found {}", inQuotes(prefix)));
   }
 }
 
 void requireChannelFits(const std::string& channel) {
   if (channel.size() > kMaxChannelLength) {
-    throw Refusal(
+    throw InputError(
         fmt::format("lcm_prefix: LCM channels have at most {} characters, {} would have {}",
                     kMaxChannelLength, channel, channel.size()));
   }

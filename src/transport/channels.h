@@ -1,6 +1,6 @@
-// Where messages go. On LCM, with the prefix TWIN_ unless told otherwise, names upper-cased:
-// TWIN_<SYSTEM>_WHIRL, TWIN_<DRIVE>_MOTOR and so on, one for all TWIN_ALERTS and TWIN_LOOP. On ROS,
-// below the namespace of the twin: <system>/whirl, drives/<drive>/motor, alerts and loop.
+// Names of LCM channels and ROS topics. On LCM, with the default prefix TWIN_, names in upper case:
+// TWIN_<SYSTEM>_WHIRL, TWIN_<DRIVE>_MOTOR and so on, one each for all: TWIN_ALERTS and TWIN_LOOP.
+// On ROS, below the namespace of the twin: <system>/whirl, drives/<drive>/motor, alerts and loop.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace whirl_twin {
 
-/// Where the twin's LCM traffic goes unless told otherwise; ttl=0 keeps it on this machine.
+/// Default LCM url of the twin; ttl=0 keeps the traffic on this machine.
 inline constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
 
 inline constexpr const char* kDefaultLcmPrefix = "TWIN_";
@@ -27,7 +27,7 @@ Kinds kindsOf() {
 }
 Kinds allKinds();
 
-/// The channel of a kind about a system, drive or source; `subject` is not used where there is one
+/// The channel of a kind for a system, drive or source; `subject` is ignored for a kind with one
 /// channel for all.
 std::string channelName(const MessageKind& kind, const std::string& subject = "",
                         const std::string& prefix = kDefaultLcmPrefix);
@@ -35,7 +35,7 @@ std::string channelName(const MessageKind& kind, const std::string& subject = ""
 /// The topic, below the twin's namespace.
 std::string topicName(const MessageKind& kind, const std::string& subject = "");
 
-/// Where a message belongs.
+/// Channel and topic of a message.
 template <class State>
 std::string channelOf(const State& state, const std::string& prefix = kDefaultLcmPrefix) {
   return channelName(State::kKind, subjectOf(state), prefix);
@@ -45,27 +45,27 @@ std::string topicOf(const State& state) {
   return topicName(State::kKind, subjectOf(state));
 }
 
-/// A channel taken apart.
+/// The parts of a channel name.
 struct Channel {
   const MessageKind* kind;
-  std::string name;  ///< of the system, drive or source, upper-cased; empty where one is for all
+  std::string name;  ///< system, drive or source, in upper case; empty with one channel for all
 };
 
-/// The parts of a channel name, or nothing if a twin with this prefix has no such channel.
+/// Parses a channel name; nothing if a twin with this prefix has no such channel.
 std::optional<Channel> parseChannel(const std::string& channel,
                                     const std::string& prefix = kDefaultLcmPrefix);
 
-/// A regular expression for the channels of some kinds.
+/// A regular expression that matches the channels of some kinds.
 std::string channelPattern(const Kinds& kinds, const std::string& prefix = kDefaultLcmPrefix);
 
-/// The prefix of a twin in a ROS namespace, where none is given: TWIN_ for "/twin", else the
-/// namespace upper-cased with _ for /, as PLANT_MACHINE_ for "/plant/machine".
+/// Default prefix of a twin in a ROS namespace: TWIN_ for "/twin", else the namespace in upper case
+/// with _ for /, as PLANT_MACHINE_ for "/plant/machine".
 std::string lcmPrefixOf(const std::string& twin_namespace);
 
-/// Throws Refusal unless it is a letter and then letters, digits and _.
+/// Throws InputError unless it is a letter followed by letters, digits and _.
 void requireLcmPrefix(const std::string& prefix);
 
-/// Throws Refusal if the channel is longer than LCM allows.
+/// Throws InputError if the channel is longer than LCM allows.
 void requireChannelFits(const std::string& channel);
 
 }  // namespace whirl_twin

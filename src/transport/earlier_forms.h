@@ -1,5 +1,6 @@
-// What kinds of messages were before fields were added at their end: logs of then still play. An
-// event in an earlier form is one of today's whose later fields say that they are not known.
+// Layouts of message kinds before fields were appended to them, so that logs of that time can be
+// read. An event in an earlier form becomes a current one whose later fields are marked as not
+// known.
 #pragma once
 
 #include <array>
@@ -12,12 +13,12 @@
 namespace whirl_twin {
 
 struct EarlierForm {
-  std::uint64_t fingerprint;  ///< of the LCM type then
-  std::string_view later;     ///< the fields since: the end of the layout (payload_layout.h)
+  std::uint64_t fingerprint;  ///< of the LCM type at that time
+  std::string_view later;     ///< fields appended since: the end of the layout (payload_layout.h)
 };
 
-/// [bytes] that later fields take while nothing has set them: a string is its length and a zero, an
-/// array its length.
+/// [bytes] of the later fields with default values: a string takes its length and a zero, an array
+/// its length.
 constexpr std::size_t sizeUnset(std::string_view later) {
   std::size_t size = 0;
   for (const char field : later) {
@@ -30,7 +31,7 @@ constexpr std::size_t sizeUnset(std::string_view later) {
   return size;
 }
 
-/// Of a kind, the earliest first; none if nothing is said.
+/// The earlier forms of a kind, the earliest first; none by default.
 template <class State>
 inline constexpr std::array<EarlierForm, 0> kEarlierForms{};
 template <>

@@ -12,8 +12,8 @@ namespace {
 constexpr std::array<std::uint8_t, 4> kSync{0xed, 0xa1, 0xda, 0x01};
 constexpr std::uint64_t kEventHeaderSize = 28;
 /// Longest channel name of LCM.
-constexpr std::int32_t kLongestChannel = 63;
-/// Searched at a time [bytes]; short against the window, so that it seldom has to move.
+constexpr std::int32_t kMaxChannel = 63;
+/// Length of one search step [bytes]; short against the window, so that it seldom has to move.
 constexpr std::uint64_t kEventSearchLength = 1 << 16;
 
 std::uint64_t bigEndian(const std::uint8_t* bytes, int count) {
@@ -40,9 +40,9 @@ EventScan::Found EventScan::next(RawEvent& event) {
   const std::uint8_t* header = file_.at(at_, kEventHeaderSize);
   const auto channel_length = static_cast<std::int32_t>(bigEndian(header + 20, 4));
   const auto data_length = static_cast<std::int32_t>(bigEndian(header + 24, 4));
-  if (channel_length < 1 || channel_length > kLongestChannel) {
+  if (channel_length < 1 || channel_length > kMaxChannel) {
     return skipDamage(fmt::format("channel name: expected 1 to {} characters, found {}",
-                                  kLongestChannel, channel_length));
+                                  kMaxChannel, channel_length));
   }
   if (data_length < 0) {
     return skipDamage(fmt::format("payload: expected at least 0 bytes, found {}", data_length));
@@ -68,14 +68,14 @@ EventScan::Found EventScan::next(RawEvent& event) {
   return Found::kEvent;
 }
 
-/// Whether the sync word, or as much of it as the file still has, stands there.
+/// Whether the sync word, or its beginning at the end of the file, is at this offset.
 bool EventScan::syncAt(std::uint64_t offset) {
   const std::size_t length = std::min<std::uint64_t>(kSync.size(), file_.size() - offset);
   const std::uint8_t* bytes = file_.at(offset, length);
   return std::equal(bytes, bytes + length, kSync.begin());
 }
 
-/// Where the next sync word stands, or the end of the file.
+/// Offset of the next sync word, or the end of the file.
 std::uint64_t EventScan::findSync(std::uint64_t from) {
   while (from + kSync.size() <= file_.size()) {
     const std::size_t length = std::min<std::uint64_t>(kEventSearchLength, file_.size() - from);
@@ -84,7 +84,7 @@ std::uint64_t EventScan::findSync(std::uint64_t from) {
     if (found != bytes + length) {
       return from + static_cast<std::uint64_t>(found - bytes);
     }
-    from += length - (kSync.size() - 1);  // a sync word may lie across the edge
+    from += length - (kSync.size() - 1);  // a sync word may cross the boundary
   }
   return file_.size();
 }

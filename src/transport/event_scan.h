@@ -1,5 +1,5 @@
-// One event of a log after another, and what lies between them: see lcm_event_log.h for the format.
-// After damage it goes on at the next sync word.
+// Sequential reader of LCM logs: events and corrupt places; see lcm_event_log.h for the format.
+// After corrupt bytes it resumes at the next sync word.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace whirl_twin {
 
-/// An event as it stands in the file.
+/// An event in the file.
 struct RawEvent {
   std::uint64_t offset = 0;    ///< [bytes], of its sync word
-  std::int64_t number = 0;     ///< counts up from 0
+  std::int64_t number = 0;     ///< sequence number, from 0
   std::int64_t timestamp = 0;  ///< [us]
   std::string channel;
   std::uint64_t size = 0;              ///< [bytes], of the payload
@@ -21,7 +21,7 @@ struct RawEvent {
 
 class EventScan {
  public:
-  /// Longest payload looked into [bytes]; the twin's have a few hundred.
+  /// Longest payload that is read [bytes]; the twin's have a few hundred.
   static constexpr std::size_t kMaxPayload = std::size_t{1} << 20;
 
   enum class Found { kEvent, kDamage, kTruncation, kEnd };
@@ -29,16 +29,16 @@ class EventScan {
   /// Throws as FileWindow does.
   explicit EventScan(const std::string& path) : file_(path) {}
 
-  /// Goes on to the next event, whose data are valid until the next call, or to the next place
-  /// where there is none: damageOffset() to offset() is no event then, damage() says why.
+  /// Advances to the next event, whose data are valid until the next call, or past a corrupt place:
+  /// the bytes damageOffset() to offset() are not an event, damage() has the reason.
   Found next(RawEvent& event);
 
-  /// Goes on at the first sync word from `offset` [bytes] on, or the end, of 0 there: what lies
-  /// between is not told as damage.
+  /// Moves to the first sync word at or after `offset` [bytes], or to the end; to the beginning for
+  /// 0. The bytes in between are not reported as corrupt.
   void goTo(std::uint64_t offset) { at_ = offset == 0 ? 0 : findSync(offset); }
 
   std::uint64_t size() const { return file_.size(); }
-  /// [bytes], up to where the file has been understood or skipped.
+  /// [bytes], up to which the file has been read or skipped.
   std::uint64_t offset() const { return at_; }
   std::uint64_t damageOffset() const { return damage_offset_; }
   const std::string& damage() const { return damage_; }

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -22,12 +22,12 @@ FileWindow::FileWindow(const std::string& path)
     if (file_ >= 0) {
       ::close(file_);
     }
-    throw Refusal(fmt::format("{}: cannot be read: {}", path, why));
+    throw InputError(fmt::format("{}: cannot be read: {}", path, why));
   }
   if (!S_ISREG(status.st_mode)) {
     ::close(file_);
-    throw Refusal(fmt::format("{}: must be a file, found {}", path,
-                              S_ISDIR(status.st_mode) ? "a directory" : "a device"));
+    throw InputError(fmt::format("{}: must be a file, found {}", path,
+                                 S_ISDIR(status.st_mode) ? "a directory" : "a device"));
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
@@ -50,8 +50,8 @@ const std::uint8_t* FileWindow::at(std::uint64_t offset, std::size_t length) {
     }
     if (got <= 0) {
       window_.clear();
-      throw Refusal(fmt::format("{}: cannot be read at byte {}: {}", path_, offset + filled,
-                                got < 0 ? std::strerror(errno) : "the file became shorter"));
+      throw InputError(fmt::format("{}: cannot be read at byte {}: {}", path_, offset + filled,
+                                   got < 0 ? std::strerror(errno) : "the file became shorter"));
     }
     filled += static_cast<std::size_t>(got);
   }

@@ -1,5 +1,5 @@
-// Any stretch of a file, seen through a window that moves: memory stays the same however long the
-// file is.
+// Random access to a file through a moving window: the memory does not depend on the length of the
+// file.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,20 @@ namespace whirl_twin {
 
 class FileWindow {
  public:
-  /// Longest stretch that can be asked for [bytes].
+  /// Longest range of one call of at() [bytes].
   static constexpr std::size_t kMaxLength = std::size_t{1} << 21;
 
-  /// Throws Refusal if there is no regular file at `path` that can be read.
+  /// Throws InputError if there is no regular file at `path` that can be read.
   explicit FileWindow(const std::string& path);
   ~FileWindow();
   FileWindow(const FileWindow&) = delete;
   FileWindow& operator=(const FileWindow&) = delete;
 
-  /// [bytes], as it was when the file was opened.
+  /// [bytes], when the file was opened.
   std::uint64_t size() const { return size_; }
 
   /// The bytes [offset, offset + length), all of which must lie within the file; valid until the
-  /// next call. Throws Refusal if they cannot be read.
+  /// next call. Throws InputError if they cannot be read.
   const std::uint8_t* at(std::uint64_t offset, std::size_t length);
 
  private:

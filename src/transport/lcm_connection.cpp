@@ -23,7 +23,7 @@ std::shared_ptr<lcm::LCM> openLcm(const std::string& url) {
 }
 
 int handleArrived(lcm::LCM& lcm, std::chrono::microseconds timeout, int most) {
-  // LCM itself waits whole milliseconds.
+  // LCM's timeout has a resolution of 1 ms.
   pollfd arrival{lcm.getFileno(), POLLIN, 0};
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
   const timespec wait{static_cast<std::time_t>(seconds.count()),

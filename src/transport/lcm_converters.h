@@ -1,6 +1,6 @@
-// State <-> LCM type. toLcm() never fails; fromLcm() throws RejectedMessage for a message that
-// cannot be meant: an illegal name, arrays of different lengths, a number outside its range, a
-// utime that is not the time.
+// State <-> LCM type. toLcm() never fails; fromLcm() throws RejectedMessage for an invalid message:
+// an illegal name, arrays of different lengths, a number outside its range, a utime that does not
+// match the time.
 #pragma once
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ namespace whirl_twin {
 
 // The LCM type of every kind of message.
 
-// Never called: the type that each returns is the one that its kind has.
+// Declared only: the return type is the LCM type of the kind.
 whirl_state_t lcmTypeOf(const state::WhirlState&);
 pendulum_state_t lcmTypeOf(const state::PendulumState&);
 drive_state_t lcmTypeOf(const state::DriveState&);
@@ -92,7 +92,7 @@ class LcmPut : public PutFields<LcmPut<State>, State, LcmType<State>> {
   void length(L length, F array) {
     length.in(this->message_) = static_cast<std::int32_t>(array.of(this->state_).size());
   }
-  /// An array of another length is cut or filled up: LCM knows one length for all.
+  /// Truncates or pads an array of another length: LCM has one length for all.
   template <class First, class F>
   void alike(First first, F array) {
     array.in(this->message_).resize(first.of(this->state_).size());
@@ -117,7 +117,7 @@ class LcmTake : public TakeFields<LcmTake<State>, State, LcmType<State>> {
     this->value(name, "", requireName, Stays::kSubject);
     head();
   }
-  /// What utime an answer has is its sender's.
+  /// The utime of an answer is not checked: its sender sets it.
   template <class F>
   void sampled(F name) {
     this->value(name, "", requireName, Stays::kSubject);
@@ -165,7 +165,7 @@ State fromLcm(const LcmType<State>& message) {
   return state;
 }
 
-// A message -> the bytes of an LCM event.
+// Serialization of a message as an LCM event.
 
 /// The payload of a message; returns its timestamp in a log of simulated time [us].
 template <class State>

@@ -16,7 +16,8 @@ bool hasFingerprintOf(const void* data, std::size_t size) {
   return hasFingerprint(static_cast<std::uint64_t>(LcmType<State>::getHash()), data, size);
 }
 
-/// The earlier form that the payload begins like; null for one of today's, or of another type.
+/// The earlier form that the payload has by its fingerprint; null for a current one or another
+/// type.
 template <class State>
 const EarlierForm* earlierFormOf(const void* data, std::size_t size) {
   for (const EarlierForm& form : kEarlierForms<State>) {
@@ -27,7 +28,7 @@ const EarlierForm* earlierFormOf(const void* data, std::size_t size) {
   return nullptr;
 }
 
-/// A payload in an earlier form as it would be today, the later fields as nothing has set them.
+/// Converts a payload in an earlier form to the current one, with defaults in the later fields.
 template <class State>
 std::vector<std::uint8_t> inTodaysForm(const EarlierForm& form, const void* data,
                                        std::size_t size) {
@@ -45,7 +46,7 @@ std::vector<std::uint8_t> inTodaysForm(const EarlierForm& form, const void* data
 
 template <class State>
 State decode(const void* data, std::size_t size) {
-  const EarlierForm* form = size > kLongestPayload ? nullptr : earlierFormOf<State>(data, size);
+  const EarlierForm* form = size > kMaxLcmPayload ? nullptr : earlierFormOf<State>(data, size);
   if (form != nullptr) {
     const std::vector<std::uint8_t> payload = inTodaysForm<State>(*form, data, size);
     return decode<State>(payload.data(), payload.size());

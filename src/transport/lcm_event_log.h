@@ -1,10 +1,10 @@
-// LCM event logs: what lcm-logger writes and lcm-logplayer plays.
+// Summary and writer of LCM event logs, the files of lcm-logger and lcm-logplayer.
 //
-// A log is one event after another, big-endian, nothing around them (LCM, "Log file format"):
+// A log is a sequence of events, big-endian, without a header (LCM, "Log file format"):
 //   int32 sync 0xEDA1DA01, int64 event number from 0, int64 timestamp [us],
 //   int32 channel length, int32 data length, channel, data
-// liblcm's own reader skips garbage in silence and takes damage for the end of the file, so the
-// reader here goes through the bytes itself: whatever is not an event is reported with its place.
+// liblcm's own reader skips garbage silently and takes corrupt bytes for the end of the file. This
+// reader parses the bytes itself and reports every place that is not an event.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@
 
 namespace whirl_twin {
 
-/// What a log holds of one channel.
+/// Summary of one channel of a log.
 struct ChannelSummary {
   std::string channel;
   std::string kind;            ///< "whirl", "pendulum", ...; "other" if it is not the twin's
-  std::uint64_t events = 0;    ///< sound ones
+  std::uint64_t events = 0;    ///< valid ones
   std::uint64_t bytes = 0;     ///< of their payloads
-  std::uint64_t rejected = 0;  ///< payload of the wrong type, undecodable, or not believable
-  double first_time = 0.0;     ///< [s], simulated, of the first sound event; NaN for "other"
+  std::uint64_t rejected = 0;  ///< payload of the wrong type, undecodable, or invalid
+  double first_time = 0.0;     ///< [s], simulated, of the first valid event; NaN for "other"
   double last_time = 0.0;      ///< [s], of the last
   // Of kinds that are a series, 0 for the others: see StepContinuity.
   std::int64_t stride = 0;
@@ -35,46 +35,45 @@ struct ChannelSummary {
   std::uint64_t backward = 0;
 };
 
-/// Something in a log that should not be there.
+/// A defect of a log.
 struct LogDefect {
   std::uint64_t offset = 0;  ///< [bytes] from the beginning of the file
   std::string what;
 };
 
-/// Defects named one by one; further ones are only counted.
+/// Number of defects listed one by one; further ones are only counted.
 inline constexpr std::size_t kMaxNamedDefects = 20;
 
 struct LogSummary {
   std::string path;
-  std::uint64_t size = 0;            ///< [bytes]
-  std::uint64_t events = 0;          ///< sound ones, of all channels
-  std::int64_t first_timestamp = 0;  ///< [us], of the first event: received at, or simulated time
-  std::int64_t last_timestamp = 0;   ///< [us]
+  std::uint64_t size = 0;                ///< [bytes]
+  std::uint64_t events = 0;              ///< valid ones, of all channels
+  std::int64_t first_timestamp = 0;      ///< [us], of the first event: reception or simulated time
+  std::int64_t last_timestamp = 0;       ///< [us]
   std::vector<ChannelSummary> channels;  ///< by name
-  std::uint64_t defect_count = 0;        ///< rejected events and damaged places of the file
+  std::uint64_t defect_count = 0;        ///< rejected events and corrupt places of the file
   std::vector<LogDefect> defects;        ///< the first kMaxNamedDefects of them
-  std::uint64_t unreadable_bytes = 0;    ///< that belong to no event
+  std::uint64_t unreadable_bytes = 0;    ///< bytes that belong to no event
   bool truncated = false;                ///< the file ends within an event
 
-  /// There are events, and nothing is damaged.
+  /// There are events, and nothing is corrupt.
   bool intact() const { return events > 0 && defect_count == 0; }
   /// No state is missing, repeated or out of order.
   bool continuous() const;
 };
 
-/// Reads the log at `path` from beginning to end, in memory that grows with the number of channels
-/// but not with the length. Throws Refusal if there is no regular file there that can be
-/// read; whatever is wrong inside the file is in the summary. LCM events carry no checksum: a
-/// changed bit inside a measured value, or in a timestamp that stays in order to within a second,
-/// cannot be seen.
-/// prefix: of the channels of the twin that was recorded.
+/// Reads the log at `path` from beginning to end; the memory grows with the number of channels, not
+/// with the length. Throws InputError if there is no regular file that can be read; defects inside
+/// the file are in the summary. LCM events carry no checksum: a flipped bit inside a measured
+/// value, or in a timestamp that stays in order to within a second, is not detected.
+/// prefix: of the channels of the recorded twin.
 LogSummary readEventLog(const std::string& path, const std::string& prefix = kDefaultLcmPrefix);
 
-/// Throws RunFailure for an `error` of the system, as in errno.
+/// Throws RunFailure for an error code of the system, as in errno.
 [[noreturn]] void throwLogNotWritten(const std::string& path, int error);
 
-/// Writes messages as a log whose timestamps are the simulated time [us], theirs or one that is
-/// given; the same messages give the same bytes.
+/// Writes messages to a log whose timestamps are simulated time [us], that of the message or a
+/// given one; the same messages give the same bytes.
 class EventLogWriter {
  public:
   /// Creates the file, or empties it. Throws RunFailure if it cannot be written.
@@ -88,18 +87,17 @@ class EventLogWriter {
     const std::int64_t utime = encode(state, payload_);
     writeEvent(channelOf(state), utime, payload_.data(), payload_.size());
   }
-  /// The same at another time [s] than the message's own: of what held before, and is told again.
+  /// The same at another time [s] than the message's: for a message that is repeated later.
   template <class State>
   void writeAt(double time, const State& state) {
     encode(state, payload_);
     writeEvent(channelOf(state), utimeOf(time), payload_.data(), payload_.size());
   }
-  /// An event as it came, at `utime` [us].
+  /// A received event, unchanged, at `utime` [us].
   void writeEvent(const std::string& channel, std::int64_t utime, const std::uint8_t* data,
                   std::size_t size);
 
-  /// Hands everything to the file system: only then is a full disk noticed. Throws
-  /// RunFailure.
+  /// Flushes to the file system: a full disk is detected only then. Throws RunFailure.
   void finish();
 
  private:

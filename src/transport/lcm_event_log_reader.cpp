@@ -16,12 +16,12 @@
 namespace whirl_twin {
 namespace {
 
-/// Timestamps are those of reception, and the machine's clock may be set back a little [us].
+/// Timestamps are times of reception: tolerance for small backward clock corrections [us].
 constexpr std::int64_t kClockSlack = 1000000;
-/// No clock stands there, 30,000 years from now [us].
+/// Upper limit of plausible timestamps, 30,000 years from now [us].
 constexpr std::int64_t kLatest = 1'000'000'000'000'000'000;
 
-/// What the messages of one channel have in common, in words.
+/// Description of the content of a channel.
 template <class State>
 std::string subject(const State& state) {
   std::string subject;
@@ -79,7 +79,7 @@ void LogJudge::takeDamage(const EventScan& scan, bool truncated) {
   addDefect(scan.damageOffset(), scan.damage());
   summary_.unreadable_bytes += scan.offset() - scan.damageOffset();
   summary_.truncated = summary_.truncated || truncated;
-  expected_number_.reset();  // how many events were lost there is not known
+  expected_number_.reset();  // the number of events lost there is not known
 }
 
 void LogJudge::checkOrder(const RawEvent& event) {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "transport/lcm_event_log.h"
 
 namespace whirl_twin {
@@ -25,7 +25,7 @@ void EventLogWriter::writeEvent(const std::string& channel, std::int64_t utime,
   event.timestamp = utime;
   event.channel = channel;
   event.datalen = static_cast<std::int32_t>(size);
-  event.data = const_cast<std::uint8_t*>(data);  // LCM's struct is for reading, too
+  event.data = const_cast<std::uint8_t*>(data);  // LCM uses the same struct for reading
   if (file_.writeEvent(&event) != 0) {
     throwLogNotWritten(path_, errno);
   }

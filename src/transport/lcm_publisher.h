@@ -1,5 +1,5 @@
-// Messages out to LCM, each on its channel. Belongs to a publisher thread: it allocates and writes
-// to a socket.
+// LCM publisher, each message on its channel. For a publisher thread: allocates and writes to a
+// socket.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,20 @@ namespace whirl_twin {
 
 class LcmPublisher {
  public:
-  /// Opens LCM at `url`. An empty url means off. If LCM cannot be opened (no multicast route, a
-  /// malformed url) the publisher stays off and warning() says so.
+  /// Opens LCM at `url`; an empty url disables it. If LCM cannot be opened (no multicast route, a
+  /// malformed url) the publisher is disabled and warning() has the reason.
   explicit LcmPublisher(const std::string& url, std::string prefix = kDefaultLcmPrefix);
 
-  /// Publishes on an LCM that is open already, e.g. "memq://" in a test.
+  /// Publishes on an open LCM, e.g. "memq://" in a test.
   explicit LcmPublisher(std::shared_ptr<lcm::LCM> lcm, std::string prefix = kDefaultLcmPrefix);
 
   bool on() const { return lcm_ != nullptr; }
   const std::string& prefix() const { return prefix_; }
 
-  /// Why LCM is off although it was asked for; empty when all is well.
+  /// Why LCM is disabled although a url was given; otherwise "".
   const std::string& warning() const { return warning_; }
 
-  /// Does nothing while off.
+  /// Does nothing while disabled.
   template <class State>
   void publish(const State& state) {
     if (lcm_) {
@@ -37,7 +37,7 @@ class LcmPublisher {
     }
   }
 
-  /// Messages handed to LCM, and messages LCM could not send.
+  /// Messages given to LCM, and those that LCM failed to send.
   std::uint64_t sent() const { return sent_; }
   std::uint64_t failed() const { return failed_; }
 

@@ -11,11 +11,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kMostChannels = 10'000;  // whoever sends chooses their names
-/// Events that wait: every state counts, through a stall of seconds (of 5 kHz for 20 s), but a
-/// flood that is faster than the reader does not take all memory. What it displaces is lost by its
-/// steps.
-constexpr int kMostWaiting = 100'000;
+constexpr std::size_t kMaxChannels = 10'000;  // the sender chooses their names
+/// Capacity of the event queue: states must not be lost during a stall of some seconds (20 s at 5
+/// kHz), yet a flood that is faster than the reader must not use up the memory. StepContinuity
+/// counts the displaced states by their steps.
+constexpr int kMaxWaiting = 100'000;
 
 }  // namespace
 
@@ -23,13 +23,13 @@ LcmReceiver::LcmReceiver(std::shared_ptr<lcm::LCM> lcm, const Kinds& kinds, Hand
                          std::string prefix)
     : lcm_(std::move(lcm)), handler_(std::move(handler)), prefix_(std::move(prefix)) {
   const std::string pattern = channelPattern(kinds, prefix_);
-  // LCM's C function says when it fails; the C++ one does not.
+  // LCM's C function reports a failure; the C++ wrapper does not.
   subscription_ =
       lcm_subscribe(lcm_->getUnderlyingLCM(), pattern.c_str(), &LcmReceiver::take, this);
   if (subscription_ == nullptr) {
     throw LcmNotAvailable(fmt::format("LCM cannot receive {} (is multicast enabled?)", pattern));
   }
-  lcm_subscription_set_queue_capacity(subscription_, kMostWaiting);
+  lcm_subscription_set_queue_capacity(subscription_, kMaxWaiting);
 }
 
 LcmReceiver::~LcmReceiver() {
@@ -63,11 +63,11 @@ void LcmReceiver::take(const lcm_recv_buf_t* buffer, const char* channel, void* 
 }
 
 void LcmReceiver::take(const std::string& channel, const void* data, std::size_t size) {
-  // Called from C: nothing may be thrown through it.
+  // Called from C: no exception may leave it.
   try {
     const Message message = decodeEvent(channel, data, size, prefix_);
-    if (channels_.size() >= kMostChannels && channels_.count(channel) == 0) {
-      throw RejectedMessage(fmt::format("more than {} channels", kMostChannels));
+    if (channels_.size() >= kMaxChannels && channels_.count(channel) == 0) {
+      throw RejectedMessage(fmt::format("more than {} channels", kMaxChannels));
     }
     auto& count = channels_[channel];
     ++count.received;

@@ -1,5 +1,5 @@
-// Messages in from LCM: every event of the wanted kinds, in the order of arrival, none dropped here
-// but what more than 100,000 that wait displace; what does not decode is rejected and counted.
+// LCM receiver: every event of the selected kinds, in the order of arrival. Only a queue of more
+// than 100,000 events drops any; an event that does not decode is rejected and counted.
 #pragma once
 
 #include <chrono>
@@ -16,10 +16,10 @@
 
 namespace whirl_twin {
 
-/// What arrived on one channel.
+/// Statistics of one channel.
 struct ChannelCount {
   std::uint64_t received = 0;
-  StepContinuity steps;  ///< of the channels that have a series, see seriesStep()
+  StepContinuity steps;  ///< of the channels of a series, see seriesStep()
 };
 
 class LcmReceiver {
@@ -34,14 +34,14 @@ class LcmReceiver {
   LcmReceiver(const LcmReceiver&) = delete;
   LcmReceiver& operator=(const LcmReceiver&) = delete;
 
-  /// Waits up to `timeout` for an event, then handles all that have arrived, at most `most` of
-  /// them. Returns how many were handled.
+  /// Waits up to `timeout` for an event, then handles the queued events, at most `most` of them.
+  /// Returns their number.
   int receive(std::chrono::microseconds timeout, int most = 1000);
 
   const std::map<std::string, ChannelCount>& channels() const { return channels_; }
-  /// When what is handled now has arrived [us, wall clock].
+  /// Arrival of the event that is being handled [us, wall clock].
   std::int64_t arrived() const { return arrived_; }
-  /// Over all channels: states accepted, missing by their steps, and rejected.
+  /// Over all channels: states accepted, states missing by their steps, events rejected.
   std::uint64_t received() const;
   std::uint64_t lost() const;
   std::uint64_t rejected() const { return refused_.total(); }

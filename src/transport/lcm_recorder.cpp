@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_event_log.h"
 

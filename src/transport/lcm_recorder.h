@@ -1,6 +1,6 @@
-// Records LCM events as they are into a log. The stock lcm-logger does so as well, but keeps at
-// most 30 messages that it has not looked at yet, and loses the rest in silence when the machine is
-// busy for a few milliseconds; here there is no such limit.
+// Records LCM events unchanged into a log. The stock lcm-logger queues at most 30 messages and
+// loses further ones silently when the machine is busy for a few milliseconds; this recorder has no
+// such limit.
 #pragma once
 
 #include <chrono>
@@ -13,17 +13,16 @@ namespace whirl_twin {
 
 class LcmRecorder {
  public:
-  /// Listens to the channels that match `pattern`, a regular expression, and writes into a new file
-  /// at `path`, or over an existing one. Throws LcmNotAvailable if LCM cannot receive,
-  /// RunFailure if the file cannot be written.
+  /// Subscribes to the channels that match `pattern`, a regular expression, and creates or
+  /// overwrites the file at `path`. Throws LcmNotAvailable if LCM cannot receive, RunFailure if the
+  /// file cannot be written.
   LcmRecorder(std::shared_ptr<lcm::LCM> lcm, const std::string& pattern, const std::string& path);
   ~LcmRecorder();
   LcmRecorder(const LcmRecorder&) = delete;
   LcmRecorder& operator=(const LcmRecorder&) = delete;
 
-  /// Waits up to `timeout` for an event, records all that have arrived, at most `most` of them, and
-  /// hands them to the file system. Returns how many. Throws RunFailure if they cannot be
-  /// written.
+  /// Waits up to `timeout` for an event, records the queued events, at most `most` of them, and
+  /// flushes the file. Returns their number. Throws RunFailure if they cannot be written.
   int record(std::chrono::milliseconds timeout, int most = 1000);
 
   std::uint64_t recorded() const { return recorded_; }

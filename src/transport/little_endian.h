@@ -1,5 +1,4 @@
-// Bytes as ROS messages, rosbags and MCAP files have them: numbers with the lowest byte first,
-// texts behind their length.
+// Little-endian serialization of ROS messages, rosbags and MCAP files; strings follow their length.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +27,12 @@ class LittleEndian {
   }
   void bytes(std::string_view text) { bytes(text.data(), text.size()); }
   void bytes(const LittleEndian& other) { bytes(other.data(), other.size()); }
-  /// Its length in 4 bytes, then the text.
+  /// The length in 4 bytes, then the string.
   void text(std::string_view text) {
     number(text.size(), 4);
     bytes(text);
   }
-  /// Likewise of other bytes.
+  /// The length in 4 bytes, then the bytes.
   void block(const LittleEndian& other) {
     number(other.size(), 4);
     bytes(other);

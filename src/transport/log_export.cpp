@@ -30,7 +30,7 @@ class Exporter {
     ++log_.damaged;
     name(offset, what);
   }
-  /// write() passes a message on and returns its topic, or throws RejectedMessage.
+  /// write() writes a message and returns its topic, or throws RejectedMessage.
   template <class Write>
   void message(std::uint64_t offset, const std::string& channel, Write&& write) {
     try {

@@ -22,7 +22,7 @@ bool isOneOf(const Kinds& kinds, const MessageKind* kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-/// Counts what has happened to a place of a file.
+/// Counts messages and defects of a file.
 class Tally {
  public:
   Tally(LoggedMessages& log, const TakeLogged& take, const LogProgress& advanced)
@@ -86,12 +86,12 @@ LoggedMessages readLcmLog(const std::string& path, const std::string& prefix, co
   return log;
 }
 
-/// Decoders of the connections of a bag, each made at its first message.
+/// Decoders of the connections of a bag, created at their first messages.
 class BagDecoders {
  public:
   BagDecoders(const std::string& prefix, const Kinds& kinds) : prefix_(prefix), kinds_(kinds) {}
 
-  /// None: of a definition that cannot be read.
+  /// None if the definition is invalid.
   std::optional<BagDecoder>& of(const BagConnection* connection) {
     const auto [place, is_new] = decoders_.try_emplace(connection);
     std::optional<BagDecoder>& decoder = place->second;
@@ -99,7 +99,7 @@ class BagDecoders {
       try {
         decoder.emplace(*connection);
       } catch (const RejectedMessage&) {
-        // None: its messages are rejected.
+        // None: messages of this connection are rejected.
       }
       if (decoder && decoder->kind() != nullptr && decoder->prefix() != prefix_ &&
           !decoder->prefix().empty() && isOneOf(kinds_, decoder->kind())) {

@@ -1,13 +1,13 @@
-// What the documents call loopback is loopback: sockets of the libraries that our programs use stay
-// on this machine where that was asked for. liblcm sends by the routing table whatever its ttl is,
-// so that a network that comes up while a twin runs receives it; roscpp's XML-RPC server listens on
-// all interfaces even where ROS_IP is 127.0.0.1, so that anybody on the network may end a node.
-// Both make their sockets in functions of their own: bind() and setsockopt() of the programs that
-// this is linked into do what those leave out, for their own sockets and for no others.
+// Restricts sockets of libraries to the loopback interface if the configuration requests it. liblcm
+// sends by the routing table whatever its ttl is, so that a network that comes up while a twin runs
+// would receive its messages; roscpp's XML-RPC server listens on all interfaces even with
+// ROS_IP=127.0.0.1, so that any host on the network could shut down a node. Both libraries create
+// their sockets internally: bind() and setsockopt(), interposed in the programs that link this
+// file, add what is missing, for these sockets only.
 //
 //   IP_MULTICAST_TTL 0      the socket sends by the loopback interface
-//   IP_ADD_MEMBERSHIP       in the group on the loopback interface, too: without a member there the
-//                           kernel drops what arrives by it
+//   IP_ADD_MEMBERSHIP       also joins the group on the loopback interface: without a member there
+//                           the kernel drops what arrives by it
 //   bind() of TCP to any    to 127.0.0.1 while ROS_HOSTNAME, or without it ROS_IP, is loopback
 //   address
 
@@ -25,7 +25,7 @@ namespace whirl_twin {
 
 namespace {
 
-/// By the system call itself: the functions below replace those of the C library.
+/// Calls the kernel directly: the functions below replace those of the C library.
 long set(int socket, int level, int name, const void* value, socklen_t size) {
   return ::syscall(SYS_setsockopt, socket, level, name, value, size);
 }
@@ -36,7 +36,7 @@ in_addr loopback() {
   return address;
 }
 
-/// Of a byte or an int, in any order of bytes.
+/// For a value of 1 byte or an int, in either byte order.
 bool isZero(const void* value, socklen_t size) {
   constexpr char kZero[sizeof(int)] = {};
   return size > 0 && size <= sizeof kZero && std::memcmp(value, kZero, size) == 0;
@@ -65,7 +65,8 @@ int setsockopt(int socket, int level, int name, const void* value, socklen_t siz
   using namespace whirl_twin;
   const int done = static_cast<int>(set(socket, level, name, value, size));
   const int why = errno;
-  // What fails besides changes nothing: without the interface nothing is sent by it either.
+  // Failures of the following calls are ignored: without the loopback interface nothing is sent by
+  // it.
   if (level == IPPROTO_IP && name == IP_MULTICAST_TTL && done == 0 && isZero(value, size)) {
     const in_addr interface = loopback();
     set(socket, IPPROTO_IP, IP_MULTICAST_IF, &interface, sizeof interface);

@@ -20,13 +20,12 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kLongestTrouble = 500;  // bytes of names
+constexpr std::size_t kMaxTrouble = 500;  // bytes of names
 
 constexpr auto kPeriod = std::chrono::seconds(2);
-constexpr auto kPoll = std::chrono::milliseconds(100);  // how soon the thread ends
+constexpr auto kPoll = std::chrono::milliseconds(100);  // bounds the time to stop the thread
 
-/// The answer of the master to a call with this node's name and further arguments; false if it does
-/// not answer.
+/// Calls the master with this node's name and further arguments; false if it does not answer.
 bool ask(const std::string& method, const std::vector<std::string>& arguments,
          XmlRpc::XmlRpcValue& answer) {
   XmlRpc::XmlRpcValue request;
@@ -38,7 +37,7 @@ bool ask(const std::string& method, const std::vector<std::string>& arguments,
   return ros::master::execute(method, request, response, answer, false);
 }
 
-/// Tells this node, as its master does, who publishes a topic it listens to.
+/// Updates the publishers of a topic this node subscribes to, as the master does.
 void connectTo(const std::string& topic, const XmlRpc::XmlRpcValue& publishers) {
   const std::string& uri = ros::XMLRPCManager::instance()->getServerURI();
   std::string host;
@@ -69,7 +68,7 @@ std::int64_t stampNow() {
 MasterWatch::MasterWatch(std::vector<std::string> parameters)
     : parameter_names_(std::move(parameters)) {
   parameter_names_.push_back(ros::this_node::getName());
-  parameter_names_.push_back("/use_sim_time");  // for nodes to come
+  parameter_names_.push_back("/use_sim_time");  // for nodes started later
   thread_ = std::thread([this] { run(); });
 }
 
@@ -121,7 +120,7 @@ void MasterWatch::look() {
   std::vector<std::string> advertised;
   ros::this_node::getAdvertisedTopics(advertised);
   const auto known = [&](const std::string& topic) { return now.topics.count(topic) > 0; };
-  // One alone may be on its way there for the first time.
+  // A single missing topic may be on its way to the master for the first time: not a restart.
   const auto kept = std::count_if(advertised.begin(), advertised.end(), known);
   const bool restarted = !answered_ || kept == 0;
   if (kept < static_cast<std::ptrdiff_t>(advertised.size())) {
@@ -170,7 +169,7 @@ MasterWatch::Registered MasterWatch::registered(XmlRpc::XmlRpcValue& state) cons
   return r;
 }
 
-/// While the master knows of this node: what it holds for it.
+/// Copies this node's parameters on the master while it is registered there.
 void MasterWatch::rememberParameters() {
   for (const std::string& name : parameter_names_) {
     XmlRpc::XmlRpcValue value;
@@ -222,7 +221,7 @@ void MasterWatch::tellAll() const {
   }
 }
 
-/// Other publishers of topics of this twin that this node publishes.
+/// Other publishers of the topics that this node publishes for the twin.
 void MasterWatch::reportRivals(const Registered& now) {
   std::set<std::string> rivals;
   std::string example;
@@ -237,7 +236,7 @@ void MasterWatch::reportRivals(const Registered& now) {
     trouble = fmt::format(
         "duplicate publisher: {} publishes on topics of this node, such as {}: two twins in one "
         "namespace",
-        printable(fmt::format("{}", fmt::join(rivals, ", ")), kLongestTrouble), printable(example));
+        printable(fmt::format("{}", fmt::join(rivals, ", ")), kMaxTrouble), printable(example));
     if (rivals != rivals_) {
       ROS_ERROR("%s; start one of them in another namespace", trouble.c_str());
     }
@@ -248,7 +247,7 @@ void MasterWatch::reportRivals(const Registered& now) {
 }
 
 void MasterWatch::reportClocks(const Registered& now) {
-  constexpr int kPatience = 2;  // looks, as a clock may come a moment after the node
+  constexpr int kPatience = 2;  // polls: a clock may start a moment after the node
   std::string trouble;
   looks_without_clock_ =
       ros::Time::isSimTime() && now.clocks.empty() ? looks_without_clock_ + 1 : 0;

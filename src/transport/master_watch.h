@@ -1,7 +1,6 @@
-// What a node does about its ROS master: when the master has been restarted the node registers its
-// topics, services and parameters again, so that it is found as before. Another node that publishes
-// on the topics of this node's twin is named, and so are clocks: /use_sim_time without a publisher
-// of /clock, and several publishers of it.
+// Watches the ROS master: after a restart of the master the node registers its topics, services and
+// parameters again. Reports other nodes that publish on the topics of this node's twin,
+// /use_sim_time without a publisher of /clock, and several publishers of /clock.
 #pragma once
 
 #include <ros/ros.h>
@@ -17,30 +16,32 @@
 
 namespace whirl_twin {
 
-/// The time for stamps [ns]: ROS's, but of the wall while /use_sim_time is set and no /clock has
-/// come, as states have it. All nodes of a twin take stamps from here.
+/// The time for stamps [ns]: ROS time, or wall-clock time while /use_sim_time is set and no /clock
+/// has arrived. All nodes of a twin take stamps from here.
 std::int64_t stampNow();
 
 class MasterWatch {
  public:
-  /// Looks at the master every two seconds, in a thread of its own, once the node has started.
-  /// `parameters`: names of further trees to bring back, beside the node's own and /use_sim_time.
+  /// Polls the master every two seconds, in a separate thread, once the node has started.
+  /// `parameters`: names of further parameter trees to restore, beside the node's own and
+  /// /use_sim_time.
   explicit MasterWatch(std::vector<std::string> parameters = {});
   ~MasterWatch();
-  /// Ends the thread, as must be before ros::shutdown().
+  /// Stops the thread; must be called before ros::shutdown().
   void stop();
 
-  /// What stands in the way at present, in a sentence for the diagnostics; empty: nothing.
+  /// The present fault, a sentence for the diagnostics; "" if there is none.
   std::string trouble() const;
-  /// The node's private parameters as the master held them last; no struct before the first look.
+  /// The node's private parameters as last read from the master; not a struct before the first
+  /// poll.
   XmlRpc::XmlRpcValue ownParameters() const;
 
  private:
   struct Registered {
-    std::set<std::string> topics;                                   // this node publishes
-    std::set<std::string> services;                                 // this node gives
+    std::set<std::string> topics;                                   // published by this node
+    std::set<std::string> services;                                 // offered by this node
     std::map<std::string, std::set<std::string>> other_publishers;  // of topics
-    std::set<std::string> clocks;                                   // that publish /clock
+    std::set<std::string> clocks;                                   // publishers of /clock
   };
 
   void run();

@@ -10,7 +10,7 @@
 #include <lz4frame.h>
 #endif
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace {
@@ -47,7 +47,7 @@ std::uint32_t crcOf(const LittleEndian& bytes) {
   return crc.checksum();
 }
 
-/// A number that a file has room for.
+/// Throws unless the number fits into a field of the file.
 std::uint16_t numbered(std::size_t count) {
   if (count >= std::numeric_limits<std::uint16_t>::max()) {
     throw RunFailure("MCAP files have at most 65,534 channels");
@@ -56,8 +56,7 @@ std::uint16_t numbered(std::size_t count) {
 }
 
 #ifdef WHIRL_TWIN_LZ4
-/// A frame as the plainest readers take it, ROS's among them: of blocks that stand alone, with a
-/// checksum.
+/// An LZ4 frame for the simplest readers, ROS's among them: independent blocks, with a checksum.
 std::vector<std::uint8_t> lz4(const LittleEndian& bytes) {
   LZ4F_preferences_t plain{};
   plain.frameInfo.blockSizeID = LZ4F_max4MB;
@@ -151,8 +150,8 @@ void McapWriter::write(const RecordedTopic& topic, std::int64_t time, const std:
   putMcapHead(kMcapMessage, 2 + 4 + 8 + 8 + size, chunk_);
   chunk_.number(channel.id, 2);
   chunk_.number(channel.messages++, 4);
-  chunk_.number(instant, 8);  // recorded
-  chunk_.number(instant, 8);  // published: not known
+  chunk_.number(instant, 8);  // time of recording
+  chunk_.number(instant, 8);  // time of publication: not known
   chunk_.bytes(data, size);
   chunk_span_.add(instant);
   span_.add(instant);
@@ -234,7 +233,7 @@ void McapWriter::finish() {
 
 void McapWriter::writeSummary() {
   LittleEndian data_end, none;
-  none.number(0, 4);  // no checksum of all the data: each chunk has its own
+  none.number(0, 4);  // no checksum of all the data: each chunk has one
   putMcapRecord(kMcapDataEnd, none, data_end);
   file_.write(data_end);
 

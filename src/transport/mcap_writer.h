@@ -1,12 +1,11 @@
-// MCAP files of ROS 1 messages, as PlotJuggler, Foxglove and Lichtblick read them (MCAP format
+// Writes MCAP files of ROS 1 messages for PlotJuggler, Foxglove and Lichtblick (MCAP format
 // specification, version 0, profile "ros1"; registry: message encoding "ros1", schemas "ros1msg").
 //
 // A file is magic bytes and records: opcode of 1 byte, length of 8, content; little-endian.
 //   header | chunks of schemas, channels and messages, each with an index of its messages by
-//   channel | end of data | summary: schemas, channels, statistics, where the chunks are | where in
-//   the summary each kind is | footer
-// Chunks are handed to the file system one by one, so that of a run that is broken off all but the
-// last second or so can be read.
+//   channel | end of data | summary: schemas, channels, statistics, offsets of the chunks |
+//   offsets of the groups of the summary | footer
+// Chunks are flushed one by one, so that an interrupted run loses about the last second only.
 #pragma once
 
 #include <array>
@@ -28,7 +27,7 @@ namespace whirl_twin {
 class McapWriter final : public RecordingWriter {
  public:
   enum class Compression { kNone, kLz4 };
-  /// Whether this twin was built with it.
+  /// Whether this build supports it.
   static bool has(Compression compression);
 
   explicit McapWriter(const std::string& path, Compression compression = Compression::kNone);
@@ -37,9 +36,9 @@ class McapWriter final : public RecordingWriter {
              std::size_t size) override;
   void finish() override;
 
-  /// Writes what has come as a chunk, and hands it to the file system.
+  /// Writes the pending messages as a chunk and flushes it.
   void flush();
-  /// [bytes], with what waits for its chunk.
+  /// [bytes], with the pending chunk.
   std::uint64_t size() const { return file_.offset() + chunk_.size(); }
 
  private:
@@ -61,7 +60,7 @@ class McapWriter final : public RecordingWriter {
   Compression compression_;
   std::map<std::string, std::uint16_t> schemas_;  ///< by type and MD5 sum
   std::map<std::string, Channel> channels_;       ///< by RecordedTopic::key()
-  std::vector<Channel*> in_chunk_;                ///< those with messages in the chunk
+  std::vector<Channel*> in_chunk_;                ///< channels with messages in the chunk
   LittleEndian chunk_;
   Span chunk_span_, span_;
   // Records for the summary.
@@ -70,8 +69,8 @@ class McapWriter final : public RecordingWriter {
   std::uint64_t messages_ = 0;
 };
 
-// The twin's messages as an MCAP file at the time they are about: the same file as an LCM log of
-// them, exported.
+// Writes the twin's messages to an MCAP file, stamped with their simulated time: the same file as
+// the export of an LCM log of them.
 
 class McapLog {
  public:
@@ -83,7 +82,7 @@ class McapLog {
   void write(const State& state) {
     writeAt(timeOf(state), state);
   }
-  /// The same at another time [s] than the message's own.
+  /// The same, stamped with another time [s] than the message's.
   template <class State>
   void writeAt(double time, const State& state) {
     const LittleEndian& bytes = encoder_.encode(state);

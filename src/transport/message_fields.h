@@ -1,5 +1,5 @@
-// From our structs into LCM types and ROS messages, and back after asking whether what came can be
-// meant: what all kinds share. What a message consists of stands in messages/, see fields.h.
+// Conversion of the structs to LCM types and ROS messages and, with validation, back: the code that
+// all kinds share. The fields of each kind are listed in messages/, see fields.h.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,11 @@ void convert(const From& from, To& to) {
   } else if constexpr (std::is_same_v<From, To>) {
     to = from;
   } else {
-    to.assign(from.begin(), from.end());  // arrays of numbers of another width or sign
+    to.assign(from.begin(), from.end());  // arrays of integers of another width or sign
   }
 }
 
-/// Puts the fields of a struct into a message; the head is left to those who know its kind.
+/// Copies the fields of a struct into a message; a derived class for its kind writes the head.
 template <class Self, class State, class Message>
 class PutFields : public FieldVisit<Self> {
  public:
@@ -68,7 +68,7 @@ class PutFields : public FieldVisit<Self> {
   };
 };
 
-/// Takes the fields of a message into a struct. Throws RejectedMessage.
+/// Copies the fields of a message into a struct. Throws RejectedMessage.
 template <class Self, class State, class Message>
 class TakeFields : public FieldVisit<Self> {
  public:
@@ -94,7 +94,7 @@ class TakeFields : public FieldVisit<Self> {
     const int expected = of(message_) ? 1 : 0;
     requireRange(field.name, field.in(message_), expected, expected);
   }
-  /// The first column says how many rows there are.
+  /// The first column determines the number of rows.
   template <class L, class F>
   void rows(L, F rows) {
     using Rows = std::decay_t<decltype(rows.of(state_))>;

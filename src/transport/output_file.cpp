@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 

@@ -1,4 +1,4 @@
-// A file written from its beginning to its end, in which every failure to write is noticed.
+// Sequential output file that detects every write error.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ class OutputFile {
   void write(const void* data, std::size_t size);
   void write(const LittleEndian& bytes) { write(bytes.data(), bytes.size()); }
   void write(std::string_view text) { write(text.data(), text.size()); }
-  /// Bytes so far.
+  /// Bytes written.
   std::uint64_t offset() const { return offset_; }
 
-  /// Writes over what stands at an offset, and goes on at the end.
+  /// Overwrites bytes at an offset; the position remains at the end.
   void rewrite(std::uint64_t offset, const LittleEndian& bytes);
-  /// Hands everything to the file system: only then is a full disk noticed.
+  /// Flushes to the file system: a full disk is detected only then.
   void flush();
 
  private:

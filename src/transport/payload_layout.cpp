@@ -33,7 +33,7 @@ class PayloadWalk {
     return static_cast<std::size_t>(length);
   }
 
-  /// Its length counts the zero that closes it; another would end it for whoever passes it on.
+  /// The length of a string includes its terminating zero; a zero inside would truncate it.
   void skipString() {
     const std::int64_t length = readLength();
     if (length < 1 || static_cast<std::size_t>(length) > size_ - at_) {
@@ -79,9 +79,9 @@ bool hasFingerprint(std::uint64_t expected, const void* data, std::size_t size) 
 
 void requirePayload(std::int64_t fingerprint, const char* name, const std::string& layout,
                     const void* data, std::size_t size) {
-  if (size > kLongestPayload) {
+  if (size > kMaxLcmPayload) {
     throw RejectedMessage(
-        fmt::format("payload: expected at most {} bytes, found {}", kLongestPayload, size));
+        fmt::format("payload: expected at most {} bytes, found {}", kMaxLcmPayload, size));
   }
   if (!hasFingerprint(static_cast<std::uint64_t>(fingerprint), data, size)) {
     throw RejectedMessage(fmt::format("expected the fingerprint of {}, found another type", name));

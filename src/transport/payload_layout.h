@@ -1,9 +1,9 @@
-// The layouts of the twin's LCM types, and a walk through a payload that proves it has one: every
-// length within the payload, every string closed, nothing left over. The fields follow one another
-// without padding, big-endian (LCM type specification, "Data encoding").
+// Layouts of the twin's LCM types, and the validation of a payload against one: every length within
+// the payload, every string terminated, no bytes left. The fields follow one another without
+// padding, big-endian (LCM type specification, "Data encoding").
 //
-// LCM's generated decoders believe the lengths they read, and its typed subscriptions call them:
-// decodePayload() is the one place that does (tests/house/check_decoders).
+// LCM's generated decoders do not check the lengths they read, and its typed subscriptions call
+// them: only decodePayload() may (tests/project/check_decoders).
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace whirl_twin {
 
-/// Writes down one character a field, in the order of the .lcm file:
+/// Writes one character per field, in the order of the .lcm file:
 ///   l int64, d double, i int32, b int8 or boolean, s string,
 ///   n int32 that is the length of the arrays that follow, S array of strings, D of doubles or
 ///   int64, B of int8.
@@ -80,21 +80,21 @@ const std::string& layoutOf() {
   return layout;
 }
 
-/// [bytes] A payload that is longer is refused: the longest message of a twin has some megabytes.
-inline constexpr std::size_t kLongestPayload = std::size_t{1} << 24u;
+/// [bytes] Longer payloads are rejected: the longest message of a twin has some megabytes.
+inline constexpr std::size_t kMaxLcmPayload = std::size_t{1} << 24u;
 
 bool hasFingerprint(std::uint64_t expected, const void* data, std::size_t size);
 
 /// Throws RejectedMessage unless the fields of `layout` fill data[0..size) exactly, after the
-/// fingerprint [8 bytes] it begins with.
+/// fingerprint [8 bytes].
 void requireLayout(const std::string& layout, const void* data, std::size_t size);
 
-/// Throws RejectedMessage unless the payload is no longer than kLongestPayload, begins with the
+/// Throws RejectedMessage unless the payload is no longer than kMaxLcmPayload, begins with the
 /// fingerprint of the type called `name`, and has its layout.
 void requirePayload(std::int64_t fingerprint, const char* name, const std::string& layout,
                     const void* data, std::size_t size);
 
-/// A payload as the LCM type that has this layout. Throws RejectedMessage if it is none.
+/// Decodes a payload of this layout. Throws RejectedMessage if it has another.
 template <class Type>
 Type decodePayload(const std::string& layout, const void* data, std::size_t size) {
   requirePayload(Type::getHash(), Type::getTypeName(), layout, data, size);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "messages/input_error.h"
 #include "messages/message_check.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "transport/bag_scan.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_decode.h"
@@ -31,7 +31,8 @@ bool PlayedRun::take(const Message& message) {
     heard_ = true;
     if (jumped_) {
       jumped_ = false;
-      // Two announcements, as who listens asks for; where there was none before, of what ends.
+      // Announced twice, as subscribers require; a log without loop statistics needs one before
+      // them, of the run that ends.
       if (!told_) {
         say(jumps_, 0);
       }
@@ -55,7 +56,7 @@ void PlayedRun::hold(bool held) {
   }
 }
 
-/// later: a little, by which announcements differ [ns].
+/// later: offset of the stamp [ns], so that successive announcements differ.
 void PlayedRun::say(std::uint64_t epoch, std::int64_t later) {
   state::LoopStatistics said = loop_;
   said.at = now_;
@@ -67,7 +68,7 @@ void PlayedRun::say(std::uint64_t epoch, std::int64_t later) {
 
 namespace {
 
-/// Bisection ends here, and the rest is walked through [bytes].
+/// Bisection ends at this length, and the remainder is scanned [bytes].
 constexpr std::uint64_t kNear = 1 << 16;
 
 }  // namespace
@@ -76,7 +77,7 @@ PlayableLog::PlayableLog(const std::string& path, std::string prefix, Selects se
                          bool commands)
     : scan_(path), prefix_(std::move(prefix)), selects_(std::move(selects)), commands_(commands) {
   if (BagScan::isBag(path)) {
-    throw Refusal(path + ": must be an LCM log, found a rosbag; use `rosbag play`");
+    throw InputError(path + ": must be an LCM log, found a rosbag; use `rosbag play`");
   }
   if (const auto first = firstFrom(0)) {
     begin_ = end_ = first->timestamp;
@@ -90,7 +91,7 @@ PlayableLog::PlayableLog(const std::string& path, std::string prefix, Selects se
   scan_.goTo(0);
 }
 
-/// The first sound event there or behind; the scan then stands behind it.
+/// The first valid event at or after `offset`; the scan is then positioned behind it.
 std::optional<RawEvent> PlayableLog::firstFrom(std::uint64_t offset) {
   scan_.goTo(offset);
   for (auto found = scan_.next(event_); found != EventScan::Found::kEnd;
@@ -155,7 +156,7 @@ bool PlayableLog::isToPlay(const RawEvent& event) {
       return false;
     }
     if (!channel) {
-      return true;  // somebody else's
+      return true;  // not a channel of the twin
     }
     message_ = decodeEvent(event.channel, event.data, event.size, prefix_);
   } catch (const RejectedMessage& why) {
@@ -167,14 +168,14 @@ bool PlayableLog::isToPlay(const RawEvent& event) {
   return !step || !isRepeated(event, *step);
 }
 
-/// Whether the state before had this step; says where states are missing.
+/// Whether the state repeats the step of the previous one; records missing states as a defect.
 bool PlayableLog::isRepeated(const RawEvent& event, std::int64_t step) {
   Series& series = series_[event.channel];
   const std::int64_t passed = step - series.step;
   const bool first = series.step < 0;
   series.step = step;
   if (first || passed < 0) {
-    return false;  // begins, or begins anew
+    return false;  // first state, or a restart
   }
   if (passed == 0) {
     ++played_.repeated;

@@ -1,6 +1,5 @@
-// An LCM log, event by event, as it is to be played: whatever is damaged, or would be a lie, is
-// left out, counted, and its first places named. Any instant of it is found by bisection on the
-// file, so that it needs no index.
+// Player of an LCM log: corrupt, invalid or repeated events are skipped, counted, and the first of
+// them listed. Seeks by bisection on the file, without an index.
 #pragma once
 
 #include <cstdint>
@@ -20,46 +19,46 @@
 
 namespace whirl_twin {
 
-// What the player says of the run it plays, on the loop's channel: that it is held, and that its
-// time begins anew. A monitor then takes neither the end of a log for a loss of data nor a jump
-// back for messages out of order.
+// Loop statistics that the player publishes for the run it plays: paused, or restarted at another
+// time. A monitor then does not take the end of a log for a loss of data or a jump back for
+// messages out of order.
 
 class PlayedRun {
  public:
   PlayedRun(std::shared_ptr<lcm::LCM> lcm, const std::string& prefix, std::int64_t started)
       : lcm_(std::move(lcm), prefix), started_(started) {}
 
-  /// A message that is about to be played. Returns whether it has been sent here in place of the
-  /// log's own, which says what is not so any more.
+  /// Called before a message is played. Returns true if it was published here, with corrected loop
+  /// statistics, in place of the one in the log.
   bool take(const Message& message);
 
-  /// From now on it is held, or goes on.
+  /// Publishes that the playback is paused or resumes.
   void hold(bool held);
 
-  /// What comes next is at another time, maybe an earlier one.
+  /// The next message is at another time, maybe an earlier one.
   void jump() { jumped_ = heard_; }
 
  private:
   void say(std::uint64_t epoch, std::int64_t later);
 
   LcmPublisher lcm_;
-  std::int64_t started_;  ///< [ns], for a log that does not tell when its run was
+  std::int64_t started_;  ///< [ns], for a log without the start of its run
   state::LoopStatistics loop_;
   state::Instant now_;
-  bool heard_ = false;  ///< a message with an instant
-  bool told_ = false;   ///< the log has said something about its loop
+  bool heard_ = false;  ///< a message with an instant was played
+  bool told_ = false;   ///< the log has loop statistics
   bool jumped_ = false;
   std::uint64_t jumps_ = 0;
 };
 
 struct PlayedLog {
-  std::uint64_t events = 0;        ///< given out
-  std::uint64_t not_selected = 0;  ///< on channels that were not asked for
-  std::uint64_t commands = 0;      ///< to the twin or the monitor, which were not asked for
-  std::uint64_t rejected = 0;      ///< of the twin's channels, that could not be meant
+  std::uint64_t events = 0;        ///< played
+  std::uint64_t not_selected = 0;  ///< on channels that are not selected
+  std::uint64_t commands = 0;      ///< to the twin or the monitor, if not selected
+  std::uint64_t rejected = 0;      ///< invalid, on channels of the twin
   std::uint64_t damaged = 0;       ///< places of the file that could not be read
-  std::uint64_t repeated = 0;      ///< states with the step of the one before
-  std::uint64_t gaps = 0;          ///< places where states are missing
+  std::uint64_t repeated = 0;      ///< states with the step of the previous one
+  std::uint64_t gaps = 0;          ///< number of gaps in the states
   /// The first kMaxNamedDefects of the last four.
   std::vector<LogDefect> defects;
 };
@@ -68,20 +67,20 @@ class PlayableLog {
  public:
   using Selects = std::function<bool(const std::string& channel)>;
 
-  /// commands: whether they are given out. Throws Refusal if there is no regular file that can be
-  /// read, or it is a rosbag.
+  /// commands: whether commands are played. Throws InputError if there is no regular file that can
+  /// be read, or it is a rosbag.
   PlayableLog(const std::string& path, std::string prefix, Selects selects, bool commands);
 
   /// The next event to play, whose data are valid until the next call; null at the end. `message`
-  /// tells what it says where the channel is the twin's.
+  /// is the decoded event on a channel of the twin.
   const RawEvent* next();
   const std::optional<Message>& message() const { return message_; }
 
-  /// Goes on at the first event that is not before `timestamp` [us], by bisection: of a log whose
-  /// stamps run backward somewhere, at one such place.
+  /// Moves to the first event that is not before `timestamp` [us], by bisection; if the stamps of
+  /// the log run backward somewhere, to one such place.
   void seek(std::int64_t timestamp);
 
-  /// Of the first event and one at the end [us]; nothing in a log without an event.
+  /// Timestamps of the first event and of one at the end [us]; nothing in a log without events.
   std::optional<std::int64_t> begin() const { return begin_; }
   std::optional<std::int64_t> end() const { return end_; }
   std::uint64_t size() const { return scan_.size(); }
@@ -91,7 +90,7 @@ class PlayableLog {
  private:
   struct Series {
     std::int64_t step = -1;
-    std::int64_t stride = 0;  ///< smallest so far; 0: not known
+    std::int64_t stride = 0;  ///< smallest difference so far [steps]; 0: not known
   };
   bool isToPlay(const RawEvent& event);
   bool isRepeated(const RawEvent& event, std::int64_t step);

@@ -7,7 +7,7 @@ namespace whirl_twin {
 void RefusedPayloads::add(const std::string& channel, const std::string& why) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::string shown = printable(channel);
-  const bool known = channels_.count(shown) > 0 || channels_.size() < kMostChannels;
+  const bool known = channels_.count(shown) > 0 || channels_.size() < kMaxChannels;
   ++channels_[known ? shown : kFurther];
   last_ = shown + ": " + why;
 }

@@ -1,4 +1,4 @@
-// Payloads that were refused, by channel. Any thread.
+// Counts rejected payloads by channel. Thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ class RefusedPayloads {
   void add(const std::string& channel, const std::string& why);
 
   std::uint64_t total() const;
-  /// "CHANNEL: why" of the latest; empty without one.
+  /// "CHANNEL: why" of the latest; "" if there is none.
   std::string last() const;
-  /// How many of each channel, of those beyond the first kMostChannels together.
+  /// Their number by channel; the channels beyond the first kMaxChannels share one entry.
   std::map<std::string, std::uint64_t> channels() const;
 
-  static constexpr std::size_t kMostChannels = 100;  ///< whoever sends chooses their names
+  static constexpr std::size_t kMaxChannels = 100;  ///< the sender chooses their names
   static constexpr const char* kFurther = "further channels";
 
  private:

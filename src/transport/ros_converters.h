@@ -1,6 +1,6 @@
-// State <-> ROS message. A header carries the stamp of the state's instant, and whom it is about as
-// frame_id. toRos() never fails; fromRos() throws RejectedMessage for a message that cannot be
-// meant: an illegal name, arrays of different lengths, a number outside its range.
+// State <-> ROS message. A header carries the stamp of the state's instant and, as frame_id, its
+// system, drive or source. toRos() never fails; fromRos() throws RejectedMessage for an invalid
+// message: an illegal name, arrays of different lengths, a number outside its range.
 #pragma once
 
 #include <ros/time.h>
@@ -37,9 +37,9 @@
 
 namespace whirl_twin {
 
-// The ROS message of every kind of message.
+// The ROS message type of every kind of message.
 
-// Never called: the type that each returns is the one that its kind has.
+// Declared only: the return type is the ROS message type of the kind.
 WhirlState rosTypeOf(const state::WhirlState&);
 PendulumState rosTypeOf(const state::PendulumState&);
 DriveState rosTypeOf(const state::DriveState&);
@@ -59,7 +59,7 @@ ControllerMargins rosTypeOf(const state::ControllerMargins&);
 ControllerMeasurement rosTypeOf(const state::ControllerMeasurement&);
 ControllerCommand rosTypeOf(const state::ControllerCommand&);
 SceneText rosTypeOf(const state::SceneText&);
-Alert rosTypeOf(const state::Alert&);  // one of an AlertArray
+Alert rosTypeOf(const state::Alert&);  // element of an AlertArray
 
 template <class State>
 using RosType = decltype(rosTypeOf(std::declval<State>()));
@@ -73,11 +73,11 @@ struct StateOf<Type, std::variant<First, Others...>>
                          StateOf<Type, std::variant<Others...>>> {};
 }  // namespace detail
 
-/// The struct of a ROS message.
+/// The struct of a ROS message type.
 template <class Type>
 using StateOf = typename detail::StateOf<Type, Message>::State;
 
-/// A stamp [ns] as ROS time; what ROS time cannot carry (negative, beyond 2106) becomes its end.
+/// A stamp [ns] as ROS time, clamped to the range of ROS time (0 to 2106).
 ros::Time toRosTime(std::int64_t stamp);
 
 template <class State>
@@ -151,11 +151,11 @@ StateOf<Type> fromRos(const Type& message) {
 
 /// The complete list of active alerts, stamped with the instant [ns] it holds at.
 AlertArray toRos(const std::vector<state::Alert>& alerts, std::int64_t stamp);
-/// The alerts take the stamp of the list: an Alert has none of its own.
+/// Each alert gets the stamp of the list: an Alert has no stamp.
 std::vector<state::Alert> fromRos(const AlertArray& message);
 
-/// The same state as sensor_msgs/JointState: every coordinate's position and rate, effort empty.
-/// For a rotor the coordinates are x and y of the disc centre.
+/// The same state as sensor_msgs/JointState: position and rate of every coordinate, effort empty.
+/// The coordinates of a rotor are x and y of the disc centre.
 sensor_msgs::JointState toJointState(const state::WhirlState& whirl);
 sensor_msgs::JointState toJointState(const state::PendulumState& pendulum);
 

@@ -27,8 +27,8 @@ void putHeader(std::int64_t stamp, const std::string& frame, LittleEndian& bytes
   bytes.text(frame);
 }
 
-/// Fields are listed in the order of the .msg file, whose widths are followed letter by letter; the
-/// values are those of the LCM type, for which every kind of field has a plain one.
+/// Fields in the order of the .msg file, with its widths (the letters of ros_definitions.h); the
+/// values come from the LCM type.
 template <class State>
 class RosWrite : public FieldVisit<RosWrite<State>> {
  public:
@@ -133,7 +133,7 @@ void RosEncoder::put(const State& state) {
 
 void RosEncoder::put(const state::Alert& alert) {
   if (alert.time < last_alert_) {
-    active_.clear();  // the log or the twin has begun anew
+    active_.clear();  // the log or the twin has restarted
   }
   last_alert_ = alert.time;
   if (alert.raised) {

@@ -1,4 +1,4 @@
-// A message of the twin -> the bytes of the ROS message of its kind, without ROS.
+// Serializes a message of the twin as the ROS message of its kind, without ROS.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace whirl_twin {
 
 class RosEncoder {
  public:
-  /// Topics below a namespace such as "/twin".
+  /// Topics are below a namespace such as "/twin".
   explicit RosEncoder(std::string twin_namespace) : namespace_(std::move(twin_namespace)) {}
 
   /// The same bytes as ROS's serialization of toRos(message). An alert becomes the complete list of
-  /// active ones, as on ROS. Valid until the next call.
+  /// active alerts, as on ROS. Valid until the next call.
   const LittleEndian& encode(const Message& message);
-  /// Where the message that was encoded last belongs.
+  /// The topic of the latest encoded message.
   const RecordedTopic& topic() const { return *topic_; }
 
  private:

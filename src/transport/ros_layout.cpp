@@ -14,9 +14,9 @@
 namespace whirl_twin {
 namespace {
 
-constexpr int kDeepestMessage = 8;              // messages in messages
-constexpr std::size_t kMostFields = 1000;       // of a message
-constexpr std::size_t kLongestArray = 1 << 20;  // entries, of one whose length is fixed
+constexpr int kDeepestMessage = 8;          // levels of nested messages
+constexpr std::size_t kMaxFields = 1000;    // of a message
+constexpr std::size_t kMaxArray = 1 << 20;  // entries, of one whose length is fixed
 constexpr std::string_view kSeparator = "====";
 
 std::string_view trimmed(std::string_view text) {
@@ -26,7 +26,7 @@ std::string_view trimmed(std::string_view text) {
              : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// Calls take(line) for each, without what is around it.
+/// Calls take(line) for each line, without surrounding white space.
 template <class Take>
 void eachLine(std::string_view text, Take&& take) {
   while (!text.empty()) {
@@ -44,7 +44,7 @@ std::uint64_t littleEndianOf(const std::uint8_t* bytes, std::size_t width) {
   return number;
 }
 
-/// Of two's complement in so many bytes.
+/// A two's-complement integer of `width` bytes.
 std::int64_t signedOf(std::uint64_t bits, std::size_t width) {
   const std::size_t spare = 64 - 8 * width;
   return static_cast<std::int64_t>(bits << spare) >> spare;
@@ -66,7 +66,7 @@ double realOf(std::uint64_t bits, std::size_t width) {
 
 RosLayout::RosLayout(const std::string& definition) {
   Types types;
-  std::string name;  // of the message itself: none
+  std::string name;  // of the message itself: empty
   bool begins = false;
   eachLine(definition, [&](std::string_view line) {
     if (line.substr(0, kSeparator.size()) == kSeparator) {
@@ -118,7 +118,7 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
       const char* const end = length.data() + length.size();
       const auto parsed = std::from_chars(length.data(), end, field.count);
       const bool is_count =
-          parsed.ec == std::errc() && parsed.ptr == end && field.count <= kLongestArray;
+          parsed.ec == std::errc() && parsed.ptr == end && field.count <= kMaxArray;
       if (type.back() != ']' || !(length.empty() || (is_count && field.count > 0))) {
         throw RejectedMessage("definition: an array without a length: " +
                               printable(std::string(line)));
@@ -126,7 +126,7 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
       type = type.substr(0, bracket);
     }
     if (own.empty() || own.find_first_of(" \t") != std::string_view::npos ||
-        fields.size() >= kMostFields) {
+        fields.size() >= kMaxFields) {
       throw RejectedMessage("definition: expected a type and a name, found " +
                             printable(std::string(line)));
     }
@@ -141,7 +141,7 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
       if (full.find('/') == std::string::npos) {
         full = package + full;
       }
-      // Those of the message's own package stand there with it, but it is not known here.
+      // A message of the same package may be given without the package, which is not known here.
       const auto found = std::find_if(types.begin(), types.end(), [&](const auto& known) {
         const std::string& name = known.first;
         return name == full || (full.find('/') == std::string::npos &&
@@ -162,14 +162,14 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
   return fields;
 }
 
-/// [bytes], that messages of these fields take at least; as many as are sure not to be there.
+/// [bytes], the smallest size of a message with these fields, limited to kMaxArray.
 std::size_t RosLayout::leastOf(const std::vector<Field>& fields) {
   std::size_t least = 0;
   for (const Field& field : fields) {
     const std::size_t of = !field.is_array   ? field.least
-                           : field.count > 0 ? field.count * std::min(field.least, kLongestArray)
+                           : field.count > 0 ? field.count * std::min(field.least, kMaxArray)
                                              : sizeof(std::uint32_t);
-    least = std::min(least + of, kLongestArray);
+    least = std::min(least + of, kMaxArray);
   }
   return least;
 }

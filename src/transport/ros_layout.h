@@ -1,5 +1,5 @@
-// How a ROS message lies in bytes, by the definition that a bag has of it: so that a bag is read
-// without ROS, and one of last year by the definition of last year.
+// Deserializes ROS messages by the definition in the bag: bags are read without ROS, and old bags
+// by their own definitions.
 #pragma once
 
 #include <cstddef>
@@ -11,23 +11,23 @@
 
 namespace whirl_twin {
 
-/// What a field has, one entry of those that are no array.
+/// The value of a field: one entry unless it is an array.
 struct RosValue {
-  std::vector<std::int64_t> whole;  ///< of integers and bool; of times and durations [ns]
-  std::vector<double> real;         ///< of float32 and float64
+  std::vector<std::int64_t> whole;  ///< integers, bool; times and durations [ns]
+  std::vector<double> real;         ///< float32 and float64
   std::vector<std::string> text;
 };
 
-/// By name; fields of a field as "header.stamp", of an array of messages one after another.
+/// By name; nested fields as "header.stamp", those of an array of messages concatenated.
 using RosValues = std::map<std::string, RosValue, std::less<>>;
 
 class RosLayout {
  public:
-  /// Of a message's definition: its .msg file, and after lines of '=' and `MSG: package/Name` those
-  /// that it names. Throws RejectedMessage for what is no definition.
+  /// From the definition of a message: its .msg file, and after lines of '=' and `MSG:
+  /// package/Name` those it includes. Throws RejectedMessage for an invalid definition.
   explicit RosLayout(const std::string& definition);
 
-  /// A field as `read` names it; is_array: or part of one.
+  /// A field with the name that read() gives it; is_array: it is an array or part of one.
   struct Name {
     std::string name;
     bool is_array;
@@ -35,19 +35,19 @@ class RosLayout {
   /// All fields in the order of the definition.
   std::vector<Name> names() const;
 
-  /// Throws RejectedMessage for bytes that are no such message, or no whole one.
+  /// Throws RejectedMessage for bytes that do not match the definition exactly.
   RosValues read(const std::uint8_t* data, std::size_t size) const;
 
  private:
   enum class Kind { kSigned, kUnsigned, kReal, kText, kTime, kDuration, kMessage };
   struct Field {
-    std::string name;  ///< with those of what it is part of
+    std::string name;  ///< with the names of the enclosing fields
     Kind kind = Kind::kSigned;
     std::size_t width = 0;  ///< [bytes], of a number
     bool is_array = false;
-    std::size_t count = 0;        ///< of an array: 0 says that its length stands before it
+    std::size_t count = 0;        ///< of an array; 0: preceded by its length
     std::vector<Field> fields{};  ///< of a kMessage
-    std::size_t least = 0;        ///< [bytes], that an entry takes
+    std::size_t least = 0;        ///< [bytes], smallest size of an entry
   };
   using Types = std::map<std::string, std::string, std::less<>>;  ///< text by name
   class Reader;

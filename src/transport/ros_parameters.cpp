@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -43,18 +43,18 @@ YAML::Node toYaml(XmlRpc::XmlRpcValue& value) {
 namespace {
 
 constexpr int kDeepestParameter = 20;
-constexpr int kMostValues = 1'000'000;
+constexpr int kMaxValues = 1'000'000;
 
 XmlRpc::XmlRpcValue scalarOf(const YAML::Node& node) {
   const std::string& text = node.Scalar();
-  const bool quoted = node.Tag() == "!";
-  if (!quoted && (text == "true" || text == "false")) {
+  const bool inQuotes = node.Tag() == "!";
+  if (!inQuotes && (text == "true" || text == "false")) {
     return {text == "true"};
   }
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   const bool begins = !text.empty() && text.find_first_of("+-.0123456789") == 0;
-  if (quoted || !begins || *end != '\0') {
+  if (inQuotes || !begins || *end != '\0') {
     return {text};
   }
   const bool whole = text.find_first_not_of("+-0123456789") == std::string::npos;
@@ -66,7 +66,7 @@ XmlRpc::XmlRpcValue scalarOf(const YAML::Node& node) {
 
 XmlRpc::XmlRpcValue fromYaml(const YAML::Node& node, int depth, int& left) {
   if (depth > kDeepestParameter || --left < 0) {
-    throw Refusal("exceeds the depth or size of a scene");
+    throw InputError("exceeds the depth or size of a scene");
   }
   XmlRpc::XmlRpcValue value;
   if (node.IsMap()) {
@@ -90,7 +90,7 @@ XmlRpc::XmlRpcValue fromYaml(const YAML::Node& node, int depth, int& left) {
 }  // namespace
 
 XmlRpc::XmlRpcValue fromYaml(const YAML::Node& tree) {
-  int left = kMostValues;
+  int left = kMaxValues;
   return fromYaml(tree, 0, left);
 }
 
@@ -99,7 +99,7 @@ ParameterTree parameterTree(const ros::NodeHandle& node, const std::string& name
       node.param<std::string>(name + "_file", "parameter " + node.resolveName(name));
   XmlRpc::XmlRpcValue tree;
   if (!node.getParam(name, tree)) {
-    throw Refusal(
+    throw InputError(
         fmt::format("{}: missing; load {} with <rosparam command=\"load\" file=\"...\" ns=\"{}\"/>",
                     source, name, node.resolveName(name)));
   }

@@ -28,7 +28,7 @@ std::vector<std::string> listenersOf(const std::string& topic) {
   return nodes;
 }
 
-void RosTopics::send(const ros::Publisher& publisher, JoinedMessages& messages) {
+void RosTopics::send(const ros::Publisher& publisher, BatchedPublisher& messages) {
   const std::uint64_t before = messages.lost();
   const std::string topic = publisher.getTopic();
   messages.send(topic);

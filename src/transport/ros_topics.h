@@ -1,4 +1,4 @@
-// Messages out to ROS, each on its topic below the namespace of the twin.
+// ROS publishers, each on its topic below the namespace of the twin.
 #pragma once
 
 #include <ros/ros.h>
@@ -10,37 +10,37 @@
 #include <utility>
 #include <vector>
 
+#include "transport/batched_publisher.h"
 #include "transport/channels.h"
-#include "transport/joined_messages.h"
 #include "transport/ros_converters.h"
 
 namespace whirl_twin {
 
-/// A connection to a topic of this node; a node that was started again has another.
+/// A connection to a topic of this node; a restarted node has a different one.
 struct TopicLink {
   int id;
   std::string node;
 };
 
 std::vector<TopicLink> linksOf(const std::string& topic);
-/// The nodes that are connected to a topic of this node.
+/// Names of the nodes connected to a topic of this node.
 std::vector<std::string> listenersOf(const std::string& topic);
 
 class RosTopics {
  public:
-  /// advertised: called with every new topic that publish() had to advertise.
+  /// advertised: called after each new topic that publish() had to advertise.
   RosTopics(
       ros::NodeHandle twin, std::uint32_t queue,
       std::function<void(const ros::Publisher&)> advertised = [](const ros::Publisher&) {})
       : twin_(std::move(twin)), queue_(queue), advertised_(std::move(advertised)) {}
 
-  /// Advertises the topics of a kind about a system, drive or source.
+  /// Advertises the topics of a kind for a system, drive or source.
   template <class State>
   void advertise(const std::string& subject = "") {
     topicsOf<State>(subject);
   }
 
-  /// Whether anybody listens, or may later.
+  /// Whether the topic has subscribers, or is latched.
   template <class State>
   bool wanted(const std::string& subject = "") {
     const Topics& topics = topicsOf<State>(subject);
@@ -48,12 +48,12 @@ class RosTopics {
            (topics.joint_states && topics.joint_states.getNumSubscribers() > 0);
   }
 
-  /// From now on messages wait for send(), but those of latched topics, which are news.
+  /// From now on messages are queued until send(), except those of latched topics.
   void collect() { collecting_ = true; }
-  /// What waits leaves.
+  /// Sends the queued messages.
   void send();
 
-  /// Publishes to those who listen; advertises where that has not been done.
+  /// Publishes to the subscribers; advertises the topic first if necessary.
   template <class State>
   void publish(const State& state) {
     static_assert(!std::is_same_v<State, state::Alert>, "alerts go in lists");
@@ -81,8 +81,8 @@ class RosTopics {
     }
   }
 
-  /// Messages that subscribers have missed because they were too slow, over all topics, and the
-  /// topic of the last of them; of latched topics, which are slow, they are not counted.
+  /// Messages that slow subscribers have missed, over all topics, and the topic of the last of
+  /// them; latched topics, which are slow, are not counted.
   std::uint64_t lost() const { return lost_; }
   const std::string& lostLast() const { return lost_last_; }
 
@@ -92,22 +92,22 @@ class RosTopics {
  private:
   struct Topics {
     explicit Topics(std::uint32_t queue) : states(queue), joint_state_list(queue) {}
-    ros::Publisher state;  // null while ROS is shutting down
+    ros::Publisher state;  // null during the shutdown of ROS
     ros::Publisher joint_states;
-    JoinedMessages states;
-    JoinedMessages joint_state_list;
+    BatchedPublisher states;
+    BatchedPublisher joint_state_list;
   };
 
   template <class RosMessage>
   void publishCounted(const ros::Publisher& publisher, const RosMessage& message,
-                      JoinedMessages& messages) {
+                      BatchedPublisher& messages) {
     messages.add(message);
     if (!collecting_ || messages.full()) {
       send(publisher, messages);
       wakeSender();
     }
   }
-  void send(const ros::Publisher& publisher, JoinedMessages& messages);
+  void send(const ros::Publisher& publisher, BatchedPublisher& messages);
 
   template <class State>
   Topics& topicsOf(const std::string& subject) {
@@ -131,7 +131,7 @@ class RosTopics {
   }
 
   ros::NodeHandle twin_;
-  std::uint32_t queue_;  // messages a slow subscriber may fall behind
+  std::uint32_t queue_;  // messages queued for a slow subscriber
   std::function<void(const ros::Publisher&)> advertised_;
   std::map<const MessageKind*, std::map<std::string, Topics>> topics_;
   bool collecting_ = false;

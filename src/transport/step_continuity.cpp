@@ -5,14 +5,14 @@
 namespace whirl_twin {
 namespace {
 
-/// Different differences kept; a channel in order has one, so more are a sign of damage anyway.
+/// Number of distinct differences kept; a channel in order has one, more indicate corrupt steps.
 constexpr std::size_t kMaxDifferences = 1000;
 
 }  // namespace
 
 void StepContinuity::add(std::int64_t step) {
-  const bool anew = before_ >= 0 && step > before_ && step <= last_;
-  if (anew) {  // two in a row from before the window: they go on from there
+  const bool restarted = before_ >= 0 && step > before_ && step <= last_;
+  if (restarted) {  // two successive steps before the window: the count resumes there
     --late_;
     beginAnew();
     window_ = {before_, step};
@@ -27,7 +27,7 @@ void StepContinuity::add(std::int64_t step) {
   }
   const auto place = std::lower_bound(window_.begin(), window_.end(), step);
   const bool known = *place == step || step == last_;
-  if (step == 0 && (known || last_ >= 0)) {  // where a twin begins
+  if (step == 0 && (known || last_ >= 0)) {  // the first step of a run
     beginAnew();
     window_ = {step};
   } else if (known) {
@@ -49,7 +49,7 @@ void StepContinuity::beginAnew() {
   ++backward_;
 }
 
-/// Takes steps out of the window, the lowest first, until so many are left.
+/// Removes the lowest steps from the window until `left` remain.
 void StepContinuity::settle(std::size_t left) {
   for (; window_.size() > left; window_.pop_front()) {
     differences_.count(last_, window_.front());
@@ -78,7 +78,7 @@ void StepContinuity::Differences::count(std::int64_t from, std::int64_t to) {
   }
 }
 
-// At least 1 where there is a forward step: each was counted when it was seen.
+// At least 1 if there is a forward step: each was counted on arrival.
 std::int64_t StepContinuity::Differences::stride() const {
   std::int64_t stride = 0;
   std::uint64_t most = 0;

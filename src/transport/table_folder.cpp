@@ -15,7 +15,7 @@ std::size_t entriesOf(const RosValue& value) {
   return value.whole.size() + value.real.size() + value.text.size();
 }
 
-/// Numbers as short as they can be without being others.
+/// The shortest text that reads back as the same number.
 std::string cellOf(const RosValue& value, std::size_t i) {
   if (i < value.real.size()) {
     return fmt::format("{}", value.real[i]);
@@ -26,14 +26,14 @@ std::string cellOf(const RosValue& value, std::size_t i) {
   return i < value.text.size() ? csvCell(value.text[i]) : "";
 }
 
-/// "/twin/rotor/whirl" -> "twin.rotor.whirl": no topic leads out of the folder.
+/// "/twin/rotor/whirl" -> "twin.rotor.whirl": no topic leaves the folder.
 std::string fileNameOf(const std::string& topic) {
   std::string name = topic.substr(std::min(topic.find_first_not_of('/'), topic.size()));
   for (char& c : name) {
     const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
     c = plain ? c : c == '/' ? '.' : '_';
   }
-  constexpr std::size_t kLongest = 200;  // file systems take 255
+  constexpr std::size_t kLongest = 200;  // file systems allow 255
   return name.empty() ? "_" : name.substr(0, kLongest);
 }
 

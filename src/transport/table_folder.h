@@ -1,8 +1,9 @@
-// ROS messages as tables of comma-separated values, a file a topic in one folder: its first column
-// is the time of recording [s], then every field by its name, an entry of an array as name[0].
+// Writes ROS messages as tables of comma-separated values, a file per topic in one folder: the
+// first column is the time of recording [s], then each field by name, an entry of an array as
+// name[0].
 //
-// How many entries arrays have at most has to be known before the first row is written, so that the
-// messages are gone through twice: TableShapes, then TableFolder.
+// The largest length of each array must be known before the first row is written: a first pass over
+// the messages is TableShapes, the second TableFolder.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +19,11 @@
 
 namespace whirl_twin {
 
-/// What the rows of a topic look like.
+/// The columns of a topic.
 struct TableShape {
   RosLayout layout;
   std::vector<RosLayout::Name> names;
-  std::vector<std::size_t> most;  ///< entries, of each
+  std::vector<std::size_t> most;  ///< largest number of entries of each
 };
 
 class TableShapes final : public RecordingWriter {
@@ -40,7 +41,7 @@ class TableShapes final : public RecordingWriter {
 
 class TableFolder final : public RecordingWriter {
  public:
-  /// Of the same messages that `shapes` was made of, into a folder that exists.
+  /// For the same messages as `shapes`, into an existing folder.
   TableFolder(std::string folder, const std::map<std::string, TableShape>& shapes)
       : folder_(std::move(folder)), shapes_(shapes) {}
 

@@ -1,10 +1,9 @@
-// Messages of a recording in the order of their recorded time, as `rosbag play` plays them,
-// whatever order they have in the file: merged bags, and those that were written topic by topic,
-// have their messages out of order.
+// Sorts the messages of a recording by recorded time, the order in which `rosbag play` plays them:
+// merged bags, and bags written topic by topic, have their messages out of order.
 //
-// A first pass finds how late a message comes at most after one with a later time. A message then
-// waits until no earlier one can follow: a file in order is read straight through, others hold in
-// memory what is out of order.
+// A first pass finds the largest delay of a message behind one with a later time. In the second
+// pass a message waits until no earlier one can follow: a file in order is read directly, others
+// buffer the messages within that delay.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "transport/bag_scan.h"
 #include "transport/event_scan.h"
 
@@ -38,16 +37,15 @@ inline bool isFound(BagScan::Found found) {
   return found == BagScan::Found::kMessage;
 }
 
-/// Of damaged times even the difference may be beyond all numbers.
+/// The difference of corrupt times may overflow.
 inline std::int64_t lag(std::int64_t newest, std::int64_t time) {
   std::int64_t behind = 0;
   return __builtin_sub_overflow(newest, time, &behind) ? std::numeric_limits<std::int64_t>::max()
                                                        : behind;
 }
 
-/// By how much one of the messages that are wanted comes at most after one with a later time, in
-/// the unit of their times; 0: all are in order. Raw is RawEvent of an EventScan, BagMessage of a
-/// BagScan.
+/// The largest delay of a selected message behind one with a later time, in the unit of their
+/// times; 0: all are in order. Raw is RawEvent of an EventScan or BagMessage of a BagScan.
 template <class Scan, class Raw, class Wanted>
 std::int64_t largestDelay(const std::string& path, Wanted&& wanted) {
   Scan scan(path);
@@ -67,13 +65,13 @@ std::int64_t largestDelay(const std::string& path, Wanted&& wanted) {
 template <class Raw>
 class TimeOrder {
  public:
-  /// Called with each message and the offset [bytes] that it was added with; the data are valid
-  /// until it returns.
+  /// Called with each message and the offset [bytes] that add() received; the data are valid until
+  /// it returns.
   using Take = std::function<void(const Raw&, std::uint64_t)>;
 
   TimeOrder(std::int64_t delay, Take take) : delay_(delay), take_(std::move(take)) {}
 
-  /// The next one of the file. Throws Refusal where more than kMaxHeld bytes would have to wait.
+  /// The next message of the file. Throws InputError if more than kMaxHeld bytes would be buffered.
   void add(const Raw& raw, std::uint64_t offset) {
     const std::int64_t time = recordedTime(raw);
     out_of_order_ += newest_ && time < *newest_ ? 1 : 0;
@@ -88,7 +86,7 @@ class TimeOrder {
     }
     bytes_ += sizeof(Held) + held.bytes.size();
     if (bytes_ > kMaxHeld) {
-      throw Refusal(
+      throw InputError(
           fmt::format("sorting its messages needs more than {} MiB: sort the log by time first",
                       kMaxHeld >> 20));
     }
@@ -115,7 +113,7 @@ class TimeOrder {
     std::uint64_t number;
     std::uint64_t offset;
 
-    bool operator<(const Held& other) const {  // the earliest is on top
+    bool operator<(const Held& other) const {  // earliest on top
       return time != other.time ? time > other.time : number > other.number;
     }
   };

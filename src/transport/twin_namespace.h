@@ -1,12 +1,12 @@
-// Which twin a node belongs to: two of them live under one master in namespaces of their own.
+// The ROS namespace of a node's twin: several twins share one master in separate namespaces.
 #pragma once
 
 #include <string>
 
 namespace whirl_twin {
 
-/// Where the topics and the scene of this node's twin are: the namespace the node was started in,
-/// or "/twin" if that is the root.
+/// Namespace of the topics and the scene of this node's twin: the one the node was started in, or
+/// "/twin" if that is the root.
 std::string twinNamespace();
 
 }  // namespace whirl_twin

@@ -20,14 +20,14 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kScheme = "udpm://";
-constexpr const char* kAddress = "239.255.76.67";  // LCM's, where the url gives none
+constexpr const char* kAddress = "239.255.76.67";  // LCM's default
 constexpr std::uint16_t kPort = 7667;
 
-// A short LCM message: a magic number, a sequence number, the channel and a zero, what it carries.
+// A short LCM message: a magic number, a sequence number, the zero-terminated channel, the payload.
 constexpr std::uint32_t kShortMessageMagic = 0x4c433032;  // LC02
 constexpr std::size_t kBeforeChannel = 8;                 // bytes
-constexpr std::size_t kLongestDatagram = 65536;           // bytes of a datagram
-constexpr std::uint32_t kUdpHeader = 8;                   // bytes, which a filter sees, too
+constexpr std::size_t kMaxDatagram = 65536;               // bytes of a datagram
+constexpr std::uint32_t kUdpHeader = 8;                   // bytes, counted by the filter
 
 std::optional<sockaddr_in> addressOf(const std::string& url) {
   if (url.compare(0, std::strlen(kScheme), kScheme) != 0) {
@@ -50,7 +50,7 @@ std::optional<sockaddr_in> addressOf(const std::string& url) {
   return address;
 }
 
-/// Keeps what begins with a magic number and, after another number, these bytes.
+/// BPF filter that accepts short LCM messages of this channel only.
 std::vector<sock_filter> filterFor(const std::string& channel) {
   std::vector<sock_filter> program;
   const auto require = [&program](std::uint16_t size, std::uint32_t at, std::uint32_t value) {
@@ -59,11 +59,11 @@ std::vector<sock_filter> filterFor(const std::string& channel) {
     program.push_back(BPF_STMT(BPF_RET | BPF_K, 0));
   };
   require(BPF_W, kUdpHeader, kShortMessageMagic);
-  for (std::size_t i = 0; i <= channel.size(); ++i) {  // and the zero
+  for (std::size_t i = 0; i <= channel.size(); ++i) {  // with the terminating zero
     require(BPF_B, static_cast<std::uint32_t>(kUdpHeader + kBeforeChannel + i),
             static_cast<unsigned char>(channel.c_str()[i]));
   }
-  program.push_back(BPF_STMT(BPF_RET | BPF_K, kLongestDatagram));
+  program.push_back(BPF_STMT(BPF_RET | BPF_K, kMaxDatagram));
   return program;
 }
 
@@ -76,7 +76,7 @@ bool ChannelListener::canListenTo(const std::string& url) {
 ChannelListener::ChannelListener(const std::string& url, const std::string& channel)
     : head_(kBeforeChannel + channel.size() + 1),
       socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)),
-      datagram_(kLongestDatagram) {
+      datagram_(kMaxDatagram) {
   const auto address = addressOf(url);
   std::vector<sock_filter> program = filterFor(channel);
   const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
@@ -86,7 +86,7 @@ ChannelListener::ChannelListener(const std::string& url, const std::string& chan
   const auto set = [this](int level, int option, const auto& value) {
     return setsockopt(socket_, level, option, &value, sizeof value) == 0;
   };
-  // The filter before all others can arrive.
+  // The filter is attached before datagrams of other channels can arrive.
   if (!(socket_ >= 0 && set(SOL_SOCKET, SO_ATTACH_FILTER, filter) &&
         set(SOL_SOCKET, SO_REUSEADDR, on) &&
         bind(socket_, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) == 0 &&
@@ -114,11 +114,11 @@ std::optional<std::vector<std::uint8_t>> ChannelListener::next() {
 
 namespace {
 
-/// [s] that what was heard counts: some beats of each.
+/// [s] Timeout of a sender: some periods of its statistics.
 constexpr double kMemory = 5.0;
-/// A twin that is started again in its place may overlap with the one that ends: that returns once.
+/// A restarted twin may overlap with the one that ends, which gives one alternation.
 constexpr std::size_t kTurns = 3;
-constexpr std::size_t kMostSenders = 64;  // at a time
+constexpr std::size_t kMaxSenders = 64;  // at a time
 
 }  // namespace
 
@@ -127,7 +127,7 @@ TwinSenders::TwinSenders(std::string where, std::string remedy)
 
 void TwinSenders::take(const state::LoopStatistics& loop, double now) {
   if (loop.started == 0) {
-    return;  // of before runs were told apart
+    return;  // an earlier form, without the start of the run
   }
   while (!returns_.empty() && now - returns_.front() > kMemory) {
     returns_.pop_front();
@@ -137,10 +137,10 @@ void TwinSenders::take(const state::LoopStatistics& loop, double now) {
   }
   const Run run{loop.started, loop.sender};
   const bool known = heard_.count(run) > 0;
-  if (!known && heard_.size() >= kMostSenders) {
+  if (!known && heard_.size() >= kMaxSenders) {
     return;
   }
-  if (known && run != last_ && returns_.size() < kMostSenders) {
+  if (known && run != last_ && returns_.size() < kMaxSenders) {
     returns_.push_back(now);
   }
   heard_[run] = now;

@@ -110,7 +110,7 @@ std::string unpack(const std::string& compression, std::vector<std::uint8_t>& pa
     return without("lz4 (liblz4-dev)");
 #endif
   }
-  return fmt::format("compression: must be none, bz2 or lz4, found {}", quoted(compression));
+  return fmt::format("compression: must be none, bz2 or lz4, found {}", inQuotes(compression));
 }
 
 }  // namespace whirl_twin

@@ -1,4 +1,4 @@
-// What a chunk of a rosbag is compressed with, undone.
+// Decompression of the chunks of a rosbag.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,8 @@
 
 namespace whirl_twin {
 
-/// The bytes behind `packed`, by compression "none", "bz2" or "lz4" (frames). Returns what is
-/// wrong,
-/// "" if nothing; `out` then has what came before it. At most `most` bytes are made.
+/// Decompresses `packed`, of compression "none", "bz2" or "lz4" (frames). Returns the error, ""
+/// without one; `out` then has the bytes before it. At most `most` bytes are written.
 std::string unpack(const std::string& compression, std::vector<std::uint8_t>& packed,
                    std::size_t most, std::vector<std::uint8_t>& out);
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "messages/checksum.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "scene/yaml_file.h"
 #include "twin/durable_file.h"
 
@@ -20,7 +20,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kTries = 3;  // to find how large a state is, which a change may change
+constexpr int kTries = 3;  // to find the size of a state, which may change meanwhile
 
 }  // namespace
 
@@ -54,27 +54,27 @@ void resume(const Checkpoint& checkpoint, LiveTwin& twin, LiveParameters& parame
             const std::string& source) {
   bool paused = false;
   try {
-    if (checkpoint.live["drives"]) {  // it was live
+    if (checkpoint.live["drives"]) {  // saved from a live twin
       parameters.resume(checkpoint.live);
       paused = checkpoint.live["paused"].as<bool>();
     }
   } catch (const YAML::Exception&) {
-    throw Refusal(fmt::format("{}: corrupt: the live changes cannot be read", source));
-  } catch (const Refusal& error) {
-    throw Refusal(fmt::format("{}: {}", source, error.what()));
+    throw InputError(fmt::format("{}: corrupt: the live changes cannot be read", source));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", source, error.what()));
   }
-  putBack(checkpoint, twin.atRest(), source);
-  twin.putBack(paused);
+  restore(checkpoint, twin.atRest(), source);
+  twin.restore(paused);
 }
 
 namespace {
 
 constexpr const char* kKind = "whirl_twin checkpoint ";
 constexpr int kFormat = 2;
-constexpr int kFormerFormat = 1;      // with another checksum
-constexpr std::size_t kMostTold = 5;  // differences
+constexpr int kFormerFormat = 1;     // with a different checksum
+constexpr std::size_t kMaxTold = 5;  // differences
 
-/// What the bits of a step hang on besides.
+/// What bit-identical steps depend on besides.
 std::string machine() {
   std::string text = fmt::format("{} bits, compiler {}", 8 * sizeof(void*), __VERSION__);
 #if defined(__x86_64__)
@@ -91,10 +91,10 @@ std::string machine() {
 }
 
 [[noreturn]] void refuse(const std::string& source, const std::string& why) {
-  throw Refusal(fmt::format("{}: {}", source, why));
+  throw InputError(fmt::format("{}: {}", source, why));
 }
 
-/// A line from `at` on, which goes to the next one.
+/// The line at `at`; `at` advances to the next one.
 std::string lineAt(const std::string& bytes, std::size_t& at) {
   const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
   std::string line = bytes.substr(at, end - at);
@@ -102,7 +102,7 @@ std::string lineAt(const std::string& bytes, std::size_t& at) {
   return line;
 }
 
-/// The format that a line states.
+/// Format number of the first line.
 int requireFormat(const std::string& line, const std::string& source) {
   const std::string kind = kKind;
   if (line.compare(0, kind.size(), kind) != 0) {
@@ -128,7 +128,7 @@ void requireWhole(const std::string& bytes, std::size_t at, int format, const st
   const bool read =
       first.ec == std::errc() && first.ptr != end &&
       std::from_chars(first.ptr + 1, end, sum, 16).ec == std::errc() &&
-      promise == fmt::format("{} {:0{}x}", size, sum, digits);  // capitals are no hex of ours
+      promise == fmt::format("{} {:0{}x}", size, sum, digits);  // lower-case hex digits only
   if (!read) {
     refuse(source, "corrupt: the second line must be a size and a checksum");
   }
@@ -161,7 +161,7 @@ void requireOrigin(const YAML::Node& head, const std::string& source) {
   }
 }
 
-/// An image in as many bytes as it takes; of what refuses to be taken none.
+/// Takes an image of any size; empty if the state cannot be saved.
 template <class Whose>
 bool takeImage(Whose& whose, std::string& out) {
   StateImage measured = StateImage::taking(nullptr, 0);
@@ -191,8 +191,8 @@ std::string bytesOf(const Checkpoint& checkpoint) {
   head["step"] = checkpoint.step;
   head["scene"] = checkpoint.scene;
   if (checkpoint.live.IsDefined()) {
-    // A tree that is put into another leaves the memory of both with each: with one checkpoint
-    // after another that would grow without end.
+    // Clone: inserting a tree into another one shares the memory of both, which would grow without
+    // bound over repeated checkpoints.
     head["live"] = YAML::Clone(checkpoint.live);
   }
   head["twin"] = checkpoint.twin.size();
@@ -265,22 +265,21 @@ void requireScene(const Checkpoint& checkpoint, const SceneLines& scene,
   for (const auto& [key, unused] : all) {
     const std::string expected = find(scene, key);
     const std::string found = find(checkpoint.scene, key);
-    if (expected != found && ++differ <= kMostTold) {
+    if (expected != found && ++differ <= kMaxTold) {
       told += fmt::format("\n  {}: expected {:.80}, found {:.80}", key, expected, found);
     }
   }
   if (differ > 0) {
-    refuse(
-        source,
-        fmt::format("must be saved from the same scene{}{}", told,
-                    differ > kMostTold ? fmt::format("\n  and {} more", differ - kMostTold) : ""));
+    refuse(source,
+           fmt::format("must be saved from the same scene{}{}", told,
+                       differ > kMaxTold ? fmt::format("\n  and {} more", differ - kMaxTold) : ""));
   }
 }
 
 std::string imageOf(Twin& twin) {
   std::string image;
   if (!takeImage(twin, image)) {
-    throw Refusal(
+    throw InputError(
         "its state cannot be saved: a control law owns memory, and has no exchange() "
         "(controllers/controller_entry.h)");
   }
@@ -293,7 +292,7 @@ std::string imageOf(Observer& observer) {
   return image;
 }
 
-void putBack(const Checkpoint& checkpoint, Twin& twin, const std::string& source) {
+void restore(const Checkpoint& checkpoint, Twin& twin, const std::string& source) {
   put(checkpoint.twin, twin, source);
   if (twin.stepCount() != checkpoint.step) {
     refuse(source,
@@ -301,7 +300,7 @@ void putBack(const Checkpoint& checkpoint, Twin& twin, const std::string& source
   }
 }
 
-void putBack(const Checkpoint& checkpoint, Observer& observer, const std::string& source) {
+void restore(const Checkpoint& checkpoint, Observer& observer, const std::string& source) {
   if (!checkpoint.observer.empty()) {
     put(checkpoint.observer, observer, source);
   }

@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-/// Samples whose outputs may be under way at once.
+/// Maximum number of pending outputs.
 std::size_t mostUnderWay(const ControllerSpec& spec) {
   return static_cast<std::size_t>(
              std::ceil(static_cast<double>(spec.delay + spec.jitter) * kNanosecond * spec.rate)) +
@@ -89,7 +89,7 @@ void RunningController::exchange(StateImage& image, std::int64_t time) noexcept 
   }
 }
 
-/// Of rates how they change is not known here: nothing is said of it.
+/// Derivatives of rates are not available here and left unknown.
 void RunningController::read(const std::vector<Stepper*>& running) noexcept {
   std::size_t read = static_cast<std::size_t>(-1);
   for (std::size_t i = 0; i < channels_.size(); ++i) {
@@ -194,7 +194,7 @@ bool RunningController::isNumber(const double* outputs) const noexcept {
   return std::all_of(outputs, outputs + acted_.size(), [](double u) { return std::isfinite(u); });
 }
 
-/// nullptr: none has come, and the last one stays.
+/// nullptr: no answer yet, the last output is held.
 void RunningController::giveAnswer(const double* outputs, std::int64_t time) noexcept {
   if (outputs == nullptr) {
     return;
@@ -206,7 +206,7 @@ void RunningController::giveAnswer(const double* outputs, std::int64_t time) noe
   }
 }
 
-/// 0, also of all that is under way.
+/// Zero output, also for pending ones.
 void RunningController::giveNothing(std::int64_t time) noexcept {
   std::fill(outputs_.begin(), outputs_.end(), 0.0);
   give(outputs_.data(), time);

@@ -1,8 +1,8 @@
-// The controllers of a scene while it runs: at their instants they are shown what their sensors
-// see, and what they give acts on the systems when it is due, held until the next.
+// The controllers of a running scene: at their sample instants they read their sensors, and their
+// outputs are applied to the systems after their delay, with a zero-order hold.
 //
-// At an instant what is due acts first; then all samples are taken, of one and the same state; what
-// has no delay acts at once.
+// At an instant outputs that are due are applied first; then all controllers sample the same state;
+// outputs without delay are applied at once.
 #pragma once
 
 #include <cstddef>
@@ -24,45 +24,47 @@
 
 namespace whirl_twin {
 
-/// What a controller has done since the start.
+/// Counters of a controller since the start.
 struct ControlCount {
   std::int64_t samples = 0;
-  std::int64_t saturated = 0;  ///< samples whose output an actuator could not give
-  std::int64_t missed = 0;     ///< samples whose output was no number: the last one stays
+  std::int64_t saturated = 0;  ///< samples with a saturated output
+  std::int64_t missed = 0;     ///< samples with a non-finite output: the last one is held
 };
 
 /// One controller.
 class RunningController {
  public:
-  /// The inputs of all systems outlive it.
+  /// The inputs of all systems must outlive it.
   RunningController(const ControllerSpec& spec, const BuiltScene& built,
                     std::vector<Inputs>& inputs);
 
-  // Real-time safe. `running` is what steps each system, `drive` the one whose shaft it goes by.
+  // Real-time safe. `running`: the stepper of each system; `drive`: the drive of the controller's
+  // shaft.
 
-  /// Forgets the past: the next instant is the first from `time` [ns] on.
+  /// Resets: the next instant is the first one from `time` [ns] on.
   void start(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
   std::int64_t nextInstant() const noexcept { return instants_.next(); }  ///< [ns]
-  /// Lets what is due act.
+  /// Applies outputs that are due.
   void actAt(std::int64_t time) noexcept;
-  /// Takes a sample if there is one, and lets its output act if that has no delay; `offset` [s]
-  /// after the start of the step.
+  /// Takes a sample if due, and applies its output if it has no delay; `offset` [s] after the start
+  /// of the step.
   void sampleAt(std::int64_t time, double offset, const std::vector<Stepper*>& running,
                 const Drive& drive) noexcept;
-  /// May simulated time go on to `until` [ns], or does it wait for an answer of another process,
-  /// `elapsed` [ns] of wall time after this was asked last? Without one that is in lockstep it may.
+  /// May simulated time advance to `until` [ns], or does it wait for the answer of an external
+  /// controller? `elapsed` [ns]: wall time since the last call. True unless the controller is in
+  /// lockstep.
   bool mayGoOn(std::int64_t until, std::int64_t elapsed) noexcept;
-  /// Stops the systems that it acts on, by their status, where it is lost and is to do that.
+  /// Sets the status of the systems it acts on to stopped, if it is lost and configured to stop
+  /// them.
   void stop(std::vector<StepStatus>& status) const noexcept;
-  /// The state has gone on to an instant: what is between samples passes the sensors' filters.
+  /// The state has advanced to an instant: updates the sensors' filters between samples.
   void follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
 
-  /// All but what it was made of, at a simulated time [ns]; a law that replace() has put in its
-  /// place has to be there.
+  /// Serializes its state at a simulated time [ns]; a replaced control law must be in place before.
   void exchange(StateImage& image, std::int64_t time) noexcept;
 
-  /// Another law of the same kind goes on in the place of its own, known from now on by a
-  /// generation > 0, until the next start(). Returns the one it has no more use for.
+  /// Bumpless replacement of the control law by another one of the same kind, with a positive
+  /// generation, until the next start(). Returns the law that is no longer used.
   std::unique_ptr<Controller> replace(std::unique_ptr<Controller> next,
                                       std::int64_t generation) noexcept;
 
@@ -70,12 +72,12 @@ class RunningController {
   /// 0: with the scene's parameters.
   std::int64_t generation() const noexcept { return generation_; }
   const ControlCount& count() const noexcept { return count_; }
-  /// nullptr: it is of this process.
+  /// nullptr: in this process.
   ExternalController* external() const noexcept { return external_; }
   state::Supervision supervision() const noexcept { return law_->supervision(); }
   std::size_t measured() const { return channels_.size(); }
   std::size_t outputs() const { return acted_.size(); }
-  /// What the last sample showed, and what acts, at the start of the step.
+  /// Values of the last sample, and the applied outputs, at the start of the step.
   const double* shown() const noexcept { return shown_.data(); }
   double acting(std::size_t output) const noexcept {
     return acted_[output].inputs->value(acted_[output].input, 0.0);
@@ -86,7 +88,7 @@ class RunningController {
     std::size_t system;
     std::size_t dof;
     bool of_rates;
-    std::vector<double> along;  ///< of q, or of v
+    std::vector<double> along;  ///< of q or of v
     Sensor sensor;
     double value = 0.0, rate = 0.0;  ///< at `followed_`
 
@@ -122,10 +124,10 @@ class RunningController {
   std::int64_t followed_ = 0;  ///< [ns]
   std::int64_t first_ = 0;     ///< sample
   std::vector<double> shown_;
-  std::vector<double> outputs_;      ///< of samples under way, in turn
-  std::size_t under_way_;            ///< places in it
-  std::vector<double> motion_;       ///< room for q and v of the largest system
-  std::vector<double> now_, rates_;  ///< signals, and how they change
+  std::vector<double> outputs_;      ///< pending outputs, a ring buffer
+  std::size_t under_way_;            ///< its capacity
+  std::vector<double> motion_;       ///< work space for q and v of the largest system
+  std::vector<double> now_, rates_;  ///< signals and their derivatives
   ControlCount count_;
 };
 
@@ -136,13 +138,13 @@ class ControlLoop {
 
   bool any() const { return !controllers_.empty(); }
   const std::vector<RunningController>& controllers() const { return controllers_; }
-  /// Is a system measured or acted on, so that its steps are taken in parts?
+  /// Is a system measured or acted on, so that its steps are split at sample instants?
   bool controls(std::size_t system) const noexcept { return controlled_[system] != 0; }
 
   // Real-time safe.
 
   void start(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
-  /// As RunningController::replace(), of one of them.
+  /// As RunningController::replace(), for one of them.
   std::unique_ptr<Controller> replace(std::size_t controller, std::unique_ptr<Controller> next,
                                       std::int64_t generation) noexcept {
     return controllers_[controller].replace(std::move(next), generation);
@@ -153,14 +155,14 @@ class ControlLoop {
     }
   }
   std::int64_t nextInstant() const noexcept;  ///< [ns], simulated
-  /// Everything that is due at an instant, `offset` [s] after the start of the step.
+  /// All that is due at an instant, `offset` [s] after the start of the step.
   void act(std::int64_t time, double offset, const std::vector<Stepper*>& running,
            const std::vector<Drive>& drives) noexcept;
   /// As RunningController::mayGoOn(), for all.
   bool mayGoOn(std::int64_t until, std::int64_t elapsed) noexcept;
   /// As RunningController::stop(), for all.
   void stop(std::vector<StepStatus>& status) const noexcept;
-  /// The systems have gone on to an instant.
+  /// The systems have advanced to an instant.
   void follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
 
  private:

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -76,7 +76,7 @@ void DurableFile::sync() {
   }
 }
 
-/// So that the name survives, too.
+/// Makes the file name durable as well.
 void DurableFile::syncFolder() {
   const std::string parent = std::filesystem::path(path_).parent_path().string();
   const int folder =

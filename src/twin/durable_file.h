@@ -1,4 +1,4 @@
-// A file that has its name only when it is whole and on the disk: results, checkpoints.
+// A file that gets its name only once it is complete and on the disk: for results and checkpoints.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@ namespace whirl_twin {
 /// "PATH: cannot be written: WHY; what was finished before is kept", of an errno. RunFailure.
 [[noreturn]] void throwNotWritten(const std::string& path, int error);
 
-/// Written beside its place, under its name, the process's number and `.tmp`; gone with the object
-/// if finish() was not reached. Everything throws RunFailure where the file cannot be written.
+/// Written next to its destination as NAME.PID.tmp; deleted by the destructor unless finish() was
+/// reached. All members throw RunFailure if the file cannot be written.
 class DurableFile {
  public:
   explicit DurableFile(const std::string& path);
@@ -19,9 +19,9 @@ class DurableFile {
   DurableFile& operator=(const DurableFile&) = delete;
 
   void add(std::string_view text);
-  /// On the disk when it returns, in the place of what was there.
+  /// On the disk on return; replaces an existing file.
   void finish();
-  /// Likewise; false, and nothing is written, where a file of that name is there already.
+  /// Likewise; returns false, without writing, if the file already exists.
   bool finishUnlessThere();
 
  private:

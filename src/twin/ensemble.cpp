@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "analysis/natural_modes.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "models/model_registry.h"
 #include "scene/ensemble_draw.h"
 #include "scene/equilibrium_start.h"
@@ -32,12 +32,11 @@ std::vector<EnsembleQuantity> quantitiesOf(const Dynamics& dynamics) {
   return quantities;
 }
 
-Refusal refused(std::size_t member, const std::exception& error) {
-  return Refusal(fmt::format("sample {}: {}", member, error.what()));
+InputError refused(std::size_t member, const std::exception& error) {
+  return InputError(fmt::format("sample {}: {}", member, error.what()));
 }
 
-/// A parameter that is 0 in the scene and spread about it may switch a member to another form of
-/// its model.
+/// A varied parameter with nominal value 0 may switch a sample to a different form of its model.
 void requireSameKind(const Dynamics& given, const ModelSetup& setup, const SystemSpec& spec,
                      const std::string& integrator) {
   const auto names = [](const Dynamics& dynamics) {
@@ -48,10 +47,10 @@ void requireSameKind(const Dynamics& given, const ModelSetup& setup, const Syste
     return all;
   };
   if (names(given) != names(*setup.dynamics) || given.isRotor() != setup.dynamics->isRotor()) {
-    throw Refusal("has other coordinates than the nominal system");
+    throw InputError("has other coordinates than the nominal system");
   }
   if (!canStepWith(setup, spec.drive.has_value(), integrator)) {
-    throw Refusal(fmt::format("cannot be stepped with {}", integrator));
+    throw InputError(fmt::format("cannot be stepped with {}", integrator));
   }
   const auto vector = [](const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(),
@@ -59,11 +58,11 @@ void requireSameKind(const Dynamics& given, const ModelSetup& setup, const Syste
   };
   if (massIsSingular(*setup.dynamics, vector(spec.q), vector(spec.v),
                      {0.0, 0.0, spec.speed.value_or(0.0), 0.0})) {
-    throw Refusal("its mass matrix is singular at the start");
+    throw InputError("its mass matrix is singular at the start");
   }
 }
 
-/// At the first station [m].
+/// Equilibrium at the first station [m].
 Eigen::Vector2d restAt(const Dynamics& dynamics, const std::optional<StartingState>& rest) {
   if (!rest) {
     return Eigen::Vector2d::Zero();
@@ -75,13 +74,13 @@ Eigen::Vector2d restAt(const Dynamics& dynamics, const std::optional<StartingSta
 
 }  // namespace
 
-Ensemble::Ensemble(const Scene& scene, const BuiltSystem& system, const Excitation& excitation)
+Ensemble::Ensemble(const Scene& scene, const BuiltSystem& system, const StepContext& excitation)
     : count_(system.spec.ensemble.count),
       quantities_(quantitiesOf(*system.dynamics)),
       every_(std::max<std::int64_t>(1, std::llround(kRecordPeriod / scene.stepSeconds()))),
       latest_(recordSize()) {
   const SystemSpec& given = system.spec;
-  const Surroundings& around = given.setup->around;
+  const ModelContext& around = given.setup->around;
   const double speed = given.rest ? given.rest->speed : excitation.drive.at(0.0).speed;
   const auto equilibrium = [&](const SystemSpec& spec,
                                const ModelSetup& setup) -> std::optional<StartingState> {
@@ -92,7 +91,7 @@ Ensemble::Ensemble(const Scene& scene, const BuiltSystem& system, const Excitati
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception&) {
-      // Numbers beyond the range of double, or a singular mass: it rests nowhere.
+      // Values beyond the range of double, or a singular mass matrix: no equilibrium.
     }
     return std::nullopt;
   };
@@ -111,7 +110,7 @@ Ensemble::Ensemble(const Scene& scene, const BuiltSystem& system, const Excitati
       const Eigen::Vector2d rest =
           setup.dynamics->isRotor() ? restAt(*setup.dynamics, own) : Eigen::Vector2d::Zero();
       members.push_back({std::move(member.spec), std::move(setup), rest});
-    } catch (const Refusal& error) {
+    } catch (const InputError& error) {
       throw refused(i, error);
     }
   }

@@ -12,7 +12,7 @@
 #include "integration/exponential.h"
 #include "integration/finite.h"
 #include "integration/step_error_sum.h"
-#include "twin/members_side_by_side.h"
+#include "twin/batched_members.h"
 #include "twin/record.h"
 
 namespace whirl_twin {
@@ -82,7 +82,7 @@ class SideBySide final : public EnsembleSteps {
     }
     return chosen;
   }
-  /// Takes the last step once more, in halves.
+  /// Repeats the last step as two half steps.
   void estimateErrors() noexcept {
     halves_.step(drive_);
     for (std::size_t k = 0; k < sampled_.size(); ++k) {
@@ -109,16 +109,16 @@ class SideBySide final : public EnsembleSteps {
   double step_;  // [s]
   IsotropicRotors rotors_;
   std::vector<std::size_t> sampled_;               // members
-  IsotropicRotors halves_;                         // of these, by steps of half the length
+  IsotropicRotors halves_;                         // of these, with half the step
   std::vector<StepErrorSum> errors_;               // likewise
-  std::vector<char> due_;                          // likewise: is this step of the sample?
-  std::vector<std::complex<double>> start_rates_;  // [m/s], likewise: before a step of the sample
+  std::vector<char> due_;                          // likewise: is this step checked?
+  std::vector<std::complex<double>> start_rates_;  // [m/s], likewise: before a checked step
 };
 
 class OneByOne final : public EnsembleSteps {
  public:
   OneByOne(const std::vector<EnsembleMember>& members, const std::string& integrator,
-           const Excitation& excitation, double step) {
+           const StepContext& excitation, double step) {
     for (const EnsembleMember& m : members) {
       Member member;
       member.spec = m.spec;
@@ -164,7 +164,7 @@ class OneByOne final : public EnsembleSteps {
   }
   double errorSum() const noexcept override {
     double largest = 0.0;
-    const std::size_t apart = (members_.size() + kMostSampled - 1) / kMostSampled;
+    const std::size_t apart = (members_.size() + kMaxSampled - 1) / kMaxSampled;
     for (std::size_t i = 0; i < members_.size(); i += apart) {
       if (members_[i].status == StepStatus::kOk) {
         largest = std::fmax(largest, members_[i].system->errorSum());
@@ -247,10 +247,10 @@ std::optional<IsotropicRotor> isotropicRotor(const Dynamics& dynamics, const Sys
   found.stiffness = l.stiffness(0, 0) / mass;
   found.load = std::complex<double>(rotor.load[0], rotor.load[1]) / mass;
   for (const ShaftForce& force : rotor.forces) {
-    // Re[F e^(i theta)] along x and Re[-i F e^(i theta)] along y: a force that turns as it is.
+    // Re[F e^(i theta)] along x and Re[-i F e^(i theta)] along y: a circularly rotating force.
     const std::complex<double> amplitude = force.amplitude[0];
     const std::complex<double> aside = std::complex<double>(0.0, -1.0) * amplitude;
-    // What turns is computed beside the load, whose rounding is in it.
+    // The synchronous force is computed together with the load and has its rounding errors.
     const double rounding = 1.0e-12 * std::abs(amplitude) + 1.0e-15 * rotor.load.norm();
     if (force.harmonic != 1 || std::abs(force.amplitude[1] - aside) > rounding) {
       return std::nullopt;
@@ -268,7 +268,7 @@ double highestSpeed(const Drive& drive) {
 }
 
 std::vector<std::size_t> sampledMembers(std::size_t count) {
-  const std::size_t sampled = std::min(count, kMostSampled);
+  const std::size_t sampled = std::min(count, kMaxSampled);
   std::vector<std::size_t> members;
   for (std::size_t k = 0; k < sampled; ++k) {
     members.push_back(k * count / sampled);
@@ -278,13 +278,13 @@ std::vector<std::size_t> sampledMembers(std::size_t count) {
 
 std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& members,
                                              const std::string& integrator,
-                                             const Excitation& excitation, double step) {
-  // As good as the exact step to some 1e-12; with a step of very many parts one by one is faster.
+                                             const StepContext& excitation, double step) {
+  // Equivalent to the exact step within some 1e-12; with very many sub-steps, one by one is faster.
   if (integrator == Exponential<1>::kName && excitation.inputs == nullptr) {
     std::vector<IsotropicRotor> rotors;
     for (const EnsembleMember& member : members) {
       if (auto rotor = isotropicRotor(*member.setup.dynamics, member.spec)) {
-        // About where its load holds it, an isotropic rotor whirls as one without a load.
+        // About its equilibrium, an isotropic rotor whirls as without a load.
         rotor->start -= rotor->load / rotor->stiffness;
         rotor->load = 0.0;
         rotors.push_back(*rotor);
@@ -292,12 +292,12 @@ std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& 
     }
     if (rotors.size() == members.size()) {
       auto together = std::make_unique<SideBySide>(rotors, excitation.drive, step);
-      if (together->parts() <= kMostPartsSideBySide) {
+      if (together->parts() <= kMaxPartsSideBySide) {
         return together;
       }
     }
   }
-  if (auto together = membersSideBySide(members, integrator, excitation, step)) {
+  if (auto together = batchedMembers(members, integrator, excitation, step)) {
     return together;
   }
   return std::make_unique<OneByOne>(members, integrator, excitation, step);

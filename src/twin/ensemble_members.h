@@ -1,5 +1,4 @@
-// How the members of an ensemble are stepped: side by side in vectors where their equations allow
-// it, else one by one.
+// Steps the samples of an ensemble: batched if their equations allow it, else one by one.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,27 +18,27 @@ namespace whirl_twin {
 struct EnsembleMember {
   SystemSpec spec;
   ModelSetup setup;
-  Eigen::Vector2d rest = Eigen::Vector2d::Zero();  ///< [m], of a rotor: whirl is about this place
+  Eigen::Vector2d rest = Eigen::Vector2d::Zero();  ///< [m], equilibrium of a rotor
 };
 
-constexpr std::size_t kMostSampled = 8;  ///< members, whose errors are measured
+constexpr std::size_t kMaxSampled = 8;  ///< samples whose errors are estimated
 
-/// These, evenly spread over so many.
+/// Their indices, uniform over `count`.
 std::vector<std::size_t> sampledMembers(std::size_t count);
 
-/// A system as one complex number, if it is an isotropic linear rotor of one disc, free of what
-/// turns with the shaft; a matrix isotropic but for rounding is not.
+/// A system as one complex coordinate, if it is an isotropic linear rotor of one disc up to
+/// synchronous forces; matrices may be anisotropic by rounding.
 std::optional<IsotropicRotor> isotropicRotor(const Dynamics& dynamics, const SystemSpec& spec);
 
-/// [rad/s], of either sign, that the drive is ever told to have.
+/// Largest magnitude of the speed [rad/s] in the drive's settings.
 double highestSpeed(const Drive& drive);
 
-/// Of a step: with more of them one by one is faster.
-constexpr int kMostPartsSideBySide = 64;
+/// Sub-steps per step; with more, stepping one by one is faster.
+constexpr int kMaxPartsSideBySide = 64;
 
-/// Of at least one member, with the scene's step [s]. The excitation outlives it.
+/// At least one sample, with the scene's step [s]. The excitation must outlive it.
 std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& members,
                                              const std::string& integrator,
-                                             const Excitation& excitation, double step);
+                                             const StepContext& excitation, double step);
 
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@ namespace whirl_twin {
 
 namespace {
 
-/// One quantity of the members that run, ascending.
+/// A quantity of the running samples, ascending.
 std::vector<double> ascending(const double* values, std::size_t count, std::size_t quantities,
                               std::size_t quantity) {
   std::vector<double> sorted;
@@ -34,7 +34,7 @@ double meanOf(const std::vector<double>& values) {
                         : sum / static_cast<double>(values.size());
 }
 
-/// Of a sample: with n - 1; 0 of a single value.
+/// Sample standard deviation (n - 1); 0 for a single value.
 double standardDeviation(const std::vector<double>& values, double mean) {
   double sum = 0.0;
   for (const double value : values) {
@@ -108,7 +108,7 @@ bool EnsembleObserver::take(std::size_t system, const state::Instant& now,
   out = ensembleStatistics(ensemble, record_.data());
   out.system = twin_.systems()[system]->spec.name;
   out.at.time = twin_.seconds(out.at.step);
-  // A reset that `now` is still before: its step tells nothing of the stamp.
+  // After a reset that is later than `now` the stamp cannot be computed from the step.
   const bool went_back = out.at.step < last_steps_[system];
   last_steps_[system] = out.at.step;
   out.at.stamp = went_back ? now.stamp : now.stamp + (out.at.step - now.step) * twin_.scene().step;

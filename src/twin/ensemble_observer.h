@@ -13,24 +13,23 @@ namespace whirl_twin {
 
 // Mean, standard deviation and percentiles of an ensemble.
 
-/// The percentile p [%] of values in ascending order, linear between them (Hyndman & Fan, The
-/// American Statistician 50, 1996, definition 7). NaN of none.
+/// The percentile p [%] of ascending values, with linear interpolation (Hyndman & Fan, The American
+/// Statistician 50, 1996, definition 7). NaN if there are none.
 double percentile(const std::vector<double>& ascending, double p);
 
-/// Of one record of an ensemble, with its step, but without its time and system.
+/// Statistics of a record of an ensemble, with its step, but without its time and system.
 state::EnsembleState ensembleStatistics(const Ensemble& ensemble, const double* record);
 
 class EnsembleObserver {
  public:
-  /// The twin outlives it. One reader of a twin's ensembles at a time.
+  /// The twin must outlive it. Only one reader of a twin's ensembles at a time.
   explicit EnsembleObserver(Twin& twin);
 
-  /// The twin's systems that have ensembles.
+  /// Systems with an ensemble.
   const std::vector<std::size_t>& systems() const { return systems_; }
 
-  /// The newest statistics of one of systems(), if there are newer ones than those last taken; some
-  /// fifty a simulated second. `now`: an instant of the twin, by which the step of the statistics
-  /// gets its stamp.
+  /// The newest statistics of one of systems(), if newer than the last ones; some fifty a simulated
+  /// second. `now`: an instant of the twin, from which the stamp of the statistics is computed.
   bool take(std::size_t system, const state::Instant& now, state::EnsembleState& out);
 
  private:

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "controllers/controller_registry.h"
+#include "messages/input_error.h"
 #include "messages/names.h"
-#include "messages/refusal.h"
 #include "scene/parameter_paths.h"
 #include "twin/trial_steps.h"
 
@@ -17,13 +17,13 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kEnded = "the simulation is ending";
-constexpr double kLongestRamp = 1.0e6;  // s
-/// Beyond the speeds of a move, in parts of the highest: its systems are ready for a little more.
+constexpr double kMaxRamp = 1.0e6;  // s
+/// Systems are prepared for speeds beyond those of a move by this fraction of the highest.
 constexpr double kSpeedMargin = 0.02;
-/// A move of the profile may go on while systems are made ready; then they are made ready again.
-constexpr int kMostPreparations = 3;
+/// A profile may advance while systems are prepared; then the preparation is repeated.
+constexpr int kMaxPreparations = 3;
 
-constexpr const char* kService = "set_parameter";  // whose complaints they are
+constexpr const char* kService = "set_parameter";  // prefix of its diagnostics
 
 std::vector<double> valuesOf(const BuiltSystem& system, const std::vector<std::string>& names) {
   std::vector<double> values;
@@ -88,7 +88,7 @@ bool LiveParameters::change(std::size_t system, SharedSystem changed,
                             const std::vector<std::string>& names) {
   std::unique_ptr<Stepper> next = twin_.twin().stepperOf(*changed);
   made_ready_[system].clear();
-  if (targets_[changed->drive]) {  // a new system knows the speeds of the scene only
+  if (targets_[changed->drive]) {  // a new system is prepared for the scene's speeds only
     const auto [lowest, highest] = speed_ranges_[changed->drive];
     const double target = *targets_[changed->drive];
     for (const auto& [from, to] : {std::pair{lowest, highest}, std::pair{target, target}}) {
@@ -134,7 +134,7 @@ std::vector<std::string> LiveParameters::names() const {
   return names;
 }
 
-std::string LiveParameters::objectionTo(const ParameterRequest& request) const {
+std::string LiveParameters::diagnosticOf(const ParameterRequest& request) const {
   const std::vector<std::string> known = names();
   if (std::find(known.begin(), known.end(), request.system) == known.end()) {
     const std::string near = nearestName(request.system, known);
@@ -142,8 +142,8 @@ std::string LiveParameters::objectionTo(const ParameterRequest& request) const {
                        controllers_.empty() ? "" : " or a controller", request.system,
                        near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
   }
-  if (!(request.ramp >= 0.0 && request.ramp <= kLongestRamp)) {
-    return fmt::format("ramp: must be from 0 to {:g} s, found {}", kLongestRamp, request.ramp);
+  if (!(request.ramp >= 0.0 && request.ramp <= kMaxRamp)) {
+    return fmt::format("ramp: must be from 0 to {:g} s, found {}", kMaxRamp, request.ramp);
   }
   if (request.names.size() != request.values.size()) {
     return fmt::format("must be one value per parameter, found {} parameters and {} values",
@@ -157,8 +157,8 @@ std::string LiveParameters::objectionTo(const ParameterRequest& request) const {
   return "";
 }
 
-/// What is to be done at once; a message that is not empty: it is refused. Where a ramp ends has to
-/// be possible; on the way there it is seen.
+/// Applies the immediate part; a nonempty message: rejected. The end of a ramp is checked here,
+/// intermediate values on the way.
 ParameterAnswer LiveParameters::begin(Which which, const ParameterRequest& request) {
   ParameterAnswer answer;
   const bool at_once = request.ramp == 0.0;
@@ -184,7 +184,7 @@ ParameterAnswer LiveParameters::begin(Which which, const ParameterRequest& reque
 
 ParameterAnswer LiveParameters::set(const ParameterRequest& request) {
   ParameterAnswer answer;
-  answer.message = objectionTo(request);
+  answer.message = diagnosticOf(request);
   if (!answer.message.empty()) {
     return answer;
   }
@@ -261,12 +261,12 @@ std::uint64_t LiveParameters::stepsToUpdate() const {
   if (ramps_.empty()) {
     return std::numeric_limits<std::uint64_t>::max();
   }
-  const double left = ramped_at_ + kRampUpdate - time();  // [s]; after a reset it may be any
+  const double left = ramped_at_ + kRampUpdate - time();  // [s]; arbitrary after a reset
   const double steps = std::round(left / twin_.twin().scene().stepSeconds());
-  return static_cast<std::uint64_t>(std::clamp(steps, 1.0, kLongestRamp));
+  return static_cast<std::uint64_t>(std::clamp(steps, 1.0, kMaxRamp));
 }
 
-std::string LiveParameters::objectionTo(std::size_t drive, const SpeedReach& reach) const {
+std::string LiveParameters::diagnosticOf(std::size_t drive, const SpeedReach& reach) const {
   const double speed = reach.target;
   for (std::size_t i = 0; i < systems_.size(); ++i) {
     if (systems_[i]->drive != drive) {
@@ -305,7 +305,7 @@ std::optional<SpeedReach> LiveParameters::reachOf(std::size_t drive, const Speed
   const ExclusionBands& avoid = twin_.twin().drive(drive).avoid();
   SpeedMove to = move;
   to.speed = avoid.allowed(move.speed, move.max_acceleration, move.max_jerk, now.target_speed);
-  // An acceleration that is to be brought to nothing with limited jerk runs on.
+  // With limited jerk the speed continues to change until the acceleration is zero.
   const auto [low, high] =
       std::minmax({now.speed, stoppingSpeed(now.speed, now.acceleration, move.max_jerk), to.speed});
   SpeedReach reach{to.speed, low, high};
@@ -319,7 +319,7 @@ std::optional<SpeedReach> LiveParameters::reachOf(std::size_t drive, const Speed
 
 bool LiveParameters::prepareFor(std::size_t drive, const SpeedMove& move) {
   SpeedRange& range = speed_ranges_[drive];
-  for (int i = 0; i < kMostPreparations; ++i) {
+  for (int i = 0; i < kMaxPreparations; ++i) {
     const std::optional<SpeedReach> reach = reachOf(drive, move);
     if (!reach) {
       return false;
@@ -351,7 +351,7 @@ bool LiveParameters::prepare(std::size_t system, bool range_covered) {
     next = running.readyFor(speed_ranges_[drive].first, speed_ranges_[drive].second);
     made_ready_[system].push_back(speed_ranges_[drive]);
   }
-  // Where the drive stays, and a system may step exactly.
+  // The final speed, at which a system may step exactly.
   made_ready_[system].emplace_back(*targets_[drive], *targets_[drive]);
   if (auto ready = (next ? *next : running).readyFor(*targets_[drive], *targets_[drive])) {
     next = std::move(ready);

@@ -1,8 +1,7 @@
-// Changes of parameters while the twin runs, of its systems and of its controllers: checked in the
-// words of a scene file, built beside the loop, swapped in between two steps with coordinates and
-// rates as they are; a controller takes over from the one before. A change may go in a
-// ramp: linear in simulated time, in updates kRampUpdate apart. Belongs to the thread that sends
-// the commands.
+// Live changes of the parameters of systems and controllers: checked as in a scene file, built
+// outside the loop, exchanged between two steps with unchanged coordinates and rates; for a
+// controller by bumpless transfer. A change may be a ramp: linear in simulated time, with updates
+// every kRampUpdate. Belongs to the thread that sends the commands.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -20,70 +19,69 @@
 
 namespace whirl_twin {
 
-/// Which numbers of a system or a controller to change, all at the same instant.
+/// Parameters of a system or controller to change at the same instant.
 struct ParameterRequest {
-  std::string system;              ///< or controller: no two have the same name
+  std::string system;              ///< or controller; names are unique
   std::vector<std::string> names;  ///< paths: `damping`, `discs[1].mass`
   std::vector<double> values;      ///< in the units of the model or the controller
-  double ramp = 0.0;               ///< [s], simulated; 0: at once
+  double ramp = 0.0;               ///< [s], simulated; 0: step change
 };
 
 struct ParameterAnswer {
   bool done = false;
-  std::string message;           ///< what happens, or why nothing does
-  std::vector<double> previous;  ///< of the names
-  std::int64_t step = 0;         ///< the step reached
+  std::string message;           ///< result, or why nothing is done
+  std::vector<double> previous;  ///< values before
+  std::int64_t step = 0;         ///< current step
 };
 
-/// How far a move of a drive takes it [rad/s].
+/// Speed range of a move of a drive [rad/s].
 struct SpeedReach {
-  double target;  ///< where it ends
+  double target;  ///< final speed
   double lowest;
   double highest;
 };
 
 class LiveParameters {
  public:
-  /// [s], simulated: a ramp is a staircase of so long steps.
+  /// Update period of a ramp [s], simulated.
   static constexpr double kRampUpdate = 0.02;
 
-  /// To be made before the loop starts. wait() returns when every command sent is carried out;
-  /// false: the loop ended first.
+  /// Must be created before the loop starts. wait() returns when all commands have been executed;
+  /// false: the loop has ended.
   LiveParameters(LiveTwin& twin, std::function<bool()> wait);
 
   ParameterAnswer set(const ParameterRequest& request);
 
-  /// Carries the ramps on that are under way, as far as simulated time has come. Returns what was
-  /// wrong with those that had to be given up.
+  /// Updates the ramps under way to the current simulated time. Returns the errors of aborted
+  /// ramps.
   std::vector<std::string> continueRamps();
   bool ramping() const { return !ramps_.empty(); }
-  /// How many steps from the one reached a ramp has its next update, at least 1; none under way:
-  /// no bound.
+  /// Steps from the current one to the next ramp update, at least 1; without ramps: unlimited.
   std::uint64_t stepsToUpdate() const;
 
-  /// Of a move that is sound (faultOf), were it to start now: to its speed, or to the edge of a
-  /// band that the drive avoids. Nothing: the loop ended.
+  /// The range of a valid move (faultOf) if it started now: to its speed, or to the edge of a
+  /// barred speed range. Empty: the loop has ended.
   std::optional<SpeedReach> reachOf(std::size_t drive, const SpeedMove& move);
 
-  /// Why a drive cannot be sent there: an ensemble on it is not prepared for that, or a system on
+  /// Why a drive cannot move there: an ensemble on it is not prepared for the speed, or a system on
   /// it would stop at the target; "" if it can.
-  std::string objectionTo(std::size_t drive, const SpeedReach& reach) const;
-  std::string objectionToSpeed(std::size_t drive, double speed) const {
-    return objectionTo(drive, {speed, speed, speed});
+  std::string diagnosticOf(std::size_t drive, const SpeedReach& reach) const;
+  std::string speedDiagnostic(std::size_t drive, double speed) const {
+    return diagnosticOf(drive, {speed, speed, speed});
   }
 
-  /// Makes every system on a drive ready for a move, to be called before the command that starts
-  /// it. False: the loop ended.
+  /// Prepares all systems on a drive for a move; to be called before the command that starts it.
+  /// False: the loop has ended.
   bool prepareFor(std::size_t drive, const SpeedMove& move);
 
-  /// The loop has carried out a kReset: the scene's parameters hold again.
+  /// The loop has executed a kReset: the scene's parameters are in effect again.
   void restored();
 
-  /// All that has been changed since the start, for a checkpoint, of the state that the twin has
-  /// while nothing is sent.
+  /// All changes since the start, for a checkpoint, consistent with the twin's state while no
+  /// command is sent.
   YAML::Node saved() const;
-  /// Before the loop runs: changes all that again. Throws what making systems and laws throws, and
-  /// YAML::Exception for what saved() has not made.
+  /// Before the loop runs: repeats these changes. Throws the exceptions of creating systems and
+  /// control laws, and YAML::Exception for data that is not from saved().
   void resume(const YAML::Node& saved);
 
  private:
@@ -100,8 +98,8 @@ class LiveParameters {
   using SpeedRange = std::pair<double, double>;  // [rad/s]
 
   double time() const;
-  std::string objectionTo(const ParameterRequest& request) const;
-  /// Puts the system as changed in its place. Throws where its steps cannot be prepared.
+  std::string diagnosticOf(const ParameterRequest& request) const;
+  /// Replaces a system by the changed one. Throws if its steps cannot be prepared.
   bool change(std::size_t system, SharedSystem next, const std::vector<std::string>& names);
   bool change(std::size_t controller, ChangedController next,
               const std::vector<std::string>& names);
@@ -119,13 +117,13 @@ class LiveParameters {
 
   LiveTwin& twin_;
   std::function<bool()> wait_;
-  std::vector<SharedSystem> systems_;                // as they are now
+  std::vector<SharedSystem> systems_;                // current ones
   std::vector<ControllerSpec> controllers_;          // likewise
-  std::vector<std::int64_t> generations_;            // of all, as they are now; 0: the scene's
-  std::vector<std::vector<SpeedRange>> made_ready_;  // what each system has been since it was made
+  std::vector<std::int64_t> generations_;            // of all current ones; 0: the scene's
+  std::vector<std::vector<SpeedRange>> made_ready_;  // prepared ranges of each system
   std::vector<SpeedRange> scene_speed_ranges_;
   std::vector<SpeedRange> speed_ranges_;        // of the drives since the start
-  std::vector<std::optional<double>> targets_;  // [rad/s], of their last moves beyond the scene
+  std::vector<std::optional<double>> targets_;  // [rad/s], of their last moves, if not the scene's
   std::vector<Ramp> ramps_;
   double ramped_at_ = 0.0;  // [s], simulated
 };

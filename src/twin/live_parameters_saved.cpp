@@ -1,4 +1,4 @@
-// What was changed live, for a checkpoint and out of it.
+// Saving and restoring live changes for checkpoints.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "control/speed_profile.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "twin/live_parameters.h"
 
 namespace whirl_twin {
@@ -16,7 +16,7 @@ namespace {
 /// [rad/s]
 std::pair<double, double> speedsOf(const YAML::Node& from, const YAML::Node& to) {
   const std::pair<double, double> speeds{from.as<double>(), to.as<double>()};
-  if (!(std::fabs(speeds.first) <= kLargestSpeed) || !(std::fabs(speeds.second) <= kLargestSpeed)) {
+  if (!(std::fabs(speeds.first) <= kMaxSpeed) || !(std::fabs(speeds.second) <= kMaxSpeed)) {
     throw YAML::Exception(from.Mark(), "must be the speed of a drive");
   }
   return speeds;
@@ -82,7 +82,7 @@ LiveParameters::Which LiveParameters::whichOf(const YAML::Node& name) const {
   return static_cast<Which>(found - known.begin());
 }
 
-/// Of a system or a controller: made as it was made when it was changed.
+/// Of a system or a controller: created as at the change.
 void LiveParameters::resumeChange(const YAML::Node& saved) {
   const Which which = whichOf(saved["which"]);
   const auto generation = saved["generation"].as<std::int64_t>();
@@ -97,7 +97,7 @@ void LiveParameters::resumeChange(const YAML::Node& saved) {
   if (isSystem(which)) {
     const SharedSystem system = twin_.twin().systems()[which]->with(set);
     if (!system) {
-      throw Refusal(fmt::format("the saved parameters of {} cannot be set", set.system));
+      throw InputError(fmt::format("the saved parameters of {} cannot be set", set.system));
     }
     std::unique_ptr<Stepper> stepper = twin_.twin().stepperOf(*system);
     for (const YAML::Node& range : saved["made_ready"]) {

@@ -8,11 +8,12 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kLongestStay = 50'000'000;  // [ns], in a cycle, that commands are heard
+constexpr std::int64_t kMaxStay = 50'000'000;  // [ns], per cycle, bounds the delay of commands
 
-/// [ns], of what is done as fast as it goes, and of waiting: the rest of a period is others'.
+/// End [ns] of stepping as fast as possible, and of waiting: the rest of a period is for other
+/// processes.
 std::int64_t endOfCycle(std::int64_t scheduled, std::int64_t period) noexcept {
-  return scheduled + std::min(period / 10 * 8, kLongestStay);
+  return scheduled + std::min(period / 10 * 8, kMaxStay);
 }
 
 }  // namespace
@@ -28,7 +29,7 @@ LiveTwin::LiveTwin(const Scene& scene, std::size_t ring_capacity)
 
 LiveTwin::~LiveTwin() {
   TwinCommand command;
-  while (commands_.pop(command)) {  // of a loop that ended first
+  while (commands_.pop(command)) {  // not executed before the loop ended
     delete command.replacement;
     delete command.law;
   }
@@ -36,12 +37,12 @@ LiveTwin::~LiveTwin() {
 
 bool LiveTwin::cycle(std::int64_t scheduled) noexcept {
   times_.beginCycle();
-  const bool more = goOn(scheduled);
+  const bool more = resume(scheduled);
   times_.endCycle(scheduled);
   return more;
 }
 
-bool LiveTwin::goOn(std::int64_t scheduled) noexcept {
+bool LiveTwin::resume(std::int64_t scheduled) noexcept {
   carryOutCommands();
   if (at_start_) {
     asked_ = scheduled;
@@ -52,7 +53,7 @@ bool LiveTwin::goOn(std::int64_t scheduled) noexcept {
     return true;
   }
   if (holds()) {
-    asked_ = scheduled;  // a pause is no waiting
+    asked_ = scheduled;  // a pause does not count as waiting
     return true;
   }
   if (steps_to_do_ > 0 || pace_.factor() == Pace::kAsFastAsItGoes) {
@@ -101,7 +102,7 @@ bool LiveTwin::holds() const noexcept {
 
 bool LiveTwin::mayStep(std::int64_t now, std::int64_t end) noexcept {
   if (!gate_.isOpen() && !(hasRoom() && gate_.waitFor(twin_.stepCount() + 1, end))) {
-    asked_ = now;  // nobody is asked
+    asked_ = now;  // no controller is asked
     return false;
   }
   const std::int64_t elapsed = now - asked_;
@@ -149,7 +150,7 @@ void LiveTwin::carryOut(const TwinCommand& command) noexcept {
         gate_.beginRun();
       }
       twin_.reset();
-      resets_.fetch_add(1, std::memory_order_relaxed);  // before the record that begins anew
+      resets_.fetch_add(1, std::memory_order_relaxed);  // before the first record after the reset
       at_start_ = true;
       return finish(true, 0.0);
     case TwinCommand::Kind::kStep:
@@ -202,8 +203,8 @@ void LiveTwin::replaceLawNow(const TwinCommand& command) noexcept {
   tellChange();
 }
 
-/// With a record for those who keep a state of their own beside it: theirs of this step. Not while
-/// they have yet to see the step at which it stands, behind a reset.
+/// Also publishes a record, for readers that keep a state: it marks theirs at this step. Not
+/// possible while the step after a reset has not been published.
 void LiveTwin::save(StateImage& image) noexcept {
   if (at_start_) {
     return finish(false, 0.0);
@@ -216,7 +217,7 @@ void LiveTwin::save(StateImage& image) noexcept {
   finish(told, 0.0);
 }
 
-/// So that it is seen at its step, and in a pause too.
+/// Publishes a change at its step, also during a pause.
 void LiveTwin::tellChange() noexcept {
   if (!at_start_) {
     publish(RecordLayout::scheduled(record_.data()));
@@ -238,7 +239,7 @@ void LiveTwin::publish(std::int64_t scheduled) noexcept {
   ring_.push(record_.data());
 }
 
-void LiveTwin::putBack(bool paused) noexcept {
+void LiveTwin::restore(bool paused) noexcept {
   step_.store(twin_.stepCount(), std::memory_order_relaxed);
   paused_.store(paused, std::memory_order_relaxed);
 }
@@ -265,7 +266,7 @@ bool LiveTwin::replace(std::size_t system, std::unique_ptr<Stepper>& next,
   if (!send(command)) {
     return false;
   }
-  static_cast<void>(next.release());  // the loop's now
+  static_cast<void>(next.release());  // owned by the loop now
   return true;
 }
 
@@ -283,7 +284,7 @@ bool LiveTwin::replaceLaw(std::size_t controller, std::unique_ptr<Controller>& n
   if (!send(command)) {
     return false;
   }
-  static_cast<void>(next.release());  // the loop's now
+  static_cast<void>(next.release());  // owned by the loop now
   return true;
 }
 

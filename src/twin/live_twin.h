@@ -1,9 +1,9 @@
-// The twin as a fixed-rate loop runs it: one cycle a period, commands in, records out. No thread of
-// its own, no lock, no allocation in a cycle.
+// The twin as run by a fixed-rate loop: one cycle per period, with a command queue in and a record
+// queue out. No own thread, no lock, no allocation in a cycle.
 //
-// What goes as fast as it goes (the factor 0, and the steps of a command in a pause) takes most of
-// a period, and waits while more than an eighth of the ring waits for its reader: nothing of it is
-// lost. Nor is anything where a gate lets it step only so far (twin/lockstep.h).
+// Stepping as fast as possible (factor 0, and kStep commands during a pause) uses most of a period,
+// and waits while more than an eighth of the ring waits for its reader: no record is lost. Nor is
+// any if a step barrier limits the steps (twin/lockstep.h).
 #pragma once
 
 #include <atomic>
@@ -14,18 +14,19 @@
 #include <vector>
 
 #include "realtime/record_ring.h"
-#include "realtime/step_gate.h"
+#include "realtime/step_barrier.h"
 #include "twin/ensemble_observer.h"
 #include "twin/system_generations.h"
 #include "twin/twin.h"
 
 namespace whirl_twin {
 
-// How fast simulated time goes beside wall time: which steps are due in a period of the loop.
+// Real-time factor: number of steps due in a period of the loop.
 //
-// At a factor of 1 one step is; below, a step in some of the periods, evenly; above, several in
-// each. The loop itself keeps its rate, so that commands, and its statistics, are what they are at
-// any factor. As fast as it goes: as many as there is time and room for.
+// At a factor of 1 one step per period is due; below, a step in some of the periods, evenly
+// distributed; above, several per period. The loop keeps its rate, so that commands and its
+// statistics are independent of the factor. As fast as possible: as many steps as time and the ring
+// allow.
 
 class Pace {
  public:
@@ -33,7 +34,7 @@ class Pace {
   static constexpr double kFastest = 1000.0;
   static constexpr double kAsFastAsItGoes = 0.0;
 
-  /// The real-time factor [-], simulated seconds in one of wall time.
+  /// The real-time factor [-]: simulated time over wall time.
   static bool canBe(double factor) {
     return factor == kAsFastAsItGoes || (factor >= kSlowest && factor <= kFastest);
   }
@@ -44,7 +45,7 @@ class Pace {
 
   // The loop's thread. Real-time safe.
 
-  /// Whole steps that are due in the period that begins; not to be asked as fast as it goes.
+  /// Whole steps due in the current period; not for stepping as fast as possible.
   std::int64_t due() noexcept {
     owed_ += factor();
     const double whole = std::floor(owed_ + kRounding);
@@ -53,10 +54,10 @@ class Pace {
   }
 
  private:
-  static constexpr double kRounding = 1.0e-9;  ///< ten tenths are a whole
+  static constexpr double kRounding = 1.0e-9;  ///< ten times 0.1 is 1
 
   std::atomic<double> factor_{1.0};
-  double owed_ = 0.0;  ///< [steps]
+  double owed_ = 0.0;  ///< [steps], fraction carried over
 };
 
 /// A command from outside the loop.
@@ -73,106 +74,106 @@ struct TwinCommand {
     kSave
   };
   Kind kind = Kind::kResume;
-  std::uint64_t steps = 0;        ///< kStep: how many
+  std::uint64_t steps = 0;        ///< kStep: number of steps
   std::size_t drive = 0;          ///< kSetSpeed, kLook: of twin().drive()
   double speed = 0.0;             ///< [rad/s]
   double max_acceleration = 0.0;  ///< [rad/s^2]
   double max_jerk = 0.0;          ///< [rad/s^3]; 0: unlimited
-  std::size_t system = 0;         ///< kSetInput; kReplace, which replace() makes
+  std::size_t system = 0;         ///< kSetInput; kReplace, sent by replace()
   std::size_t input = 0;          ///< kSetInput: of the system's dynamics
   double value = 0.0;             ///< in the input's unit
-  std::int64_t duration = 0;      ///< [ns], simulated, until its own value returns
+  std::int64_t duration = 0;      ///< [ns], simulated; then the input returns to its own value
   Stepper* replacement = nullptr;
   std::int64_t generation = 0;
-  std::size_t controller = 0;  ///< kReplaceLaw, which replaceLaw() makes
+  std::size_t controller = 0;  ///< kReplaceLaw, sent by replaceLaw()
   Controller* law = nullptr;
-  StateImage* image = nullptr;  ///< kSave: that takes the twin's state; outlives the command
+  StateImage* image = nullptr;  ///< kSave: receives the twin's state; must outlive the command
 };
 
-/// What became of a command.
+/// Result of a command.
 struct TwinAnswer {
   bool done = false;
-  std::int64_t step = 0;      ///< the step reached
+  std::int64_t step = 0;      ///< current step
   double duration = 0.0;      ///< [s], kSetSpeed: of the move
-  double speed = 0.0;         ///< [rad/s], kLook: of the drive now,
+  double speed = 0.0;         ///< [rad/s], kLook: current value of the drive
   double acceleration = 0.0;  ///< [rad/s^2],
-  double target_speed = 0.0;  ///< [rad/s], and where its move ends
+  double target_speed = 0.0;  ///< [rad/s], final speed of its move
 };
 
 class LiveTwin {
  public:
-  /// Up to ring_capacity records wait for their reader; more are dropped and counted.
+  /// Up to ring_capacity records are queued for their reader; further ones are dropped and counted.
   LiveTwin(const Scene& scene, std::size_t ring_capacity);
   ~LiveTwin();
   LiveTwin(const LiveTwin&) = delete;
   LiveTwin& operator=(const LiveTwin&) = delete;
 
-  /// Of the twin only what does not change while it runs may be used while the loop runs.
+  /// While the loop runs, only the constant members of the twin may be used.
   const Twin& twin() const { return twin_; }
-  /// Before the loop runs, and after: all of it.
+  /// Full access, before the loop runs and after it.
   Twin& atRest() { return twin_; }
-  /// Before it runs: it has been put back to where it stands now, in a pause or not.
-  void putBack(bool paused) noexcept;
+  /// Before the loop runs: the twin has been restored to its current state, paused or not.
+  void restore(bool paused) noexcept;
 
-  /// The loop's thread, once a period; scheduled [ns] goes into the record, and where there are
-  /// several they stand evenly in the period. Real-time safe.
+  /// Called by the loop's thread, once a period; scheduled [ns] is written into the record; several
+  /// steps are distributed evenly over the period. Real-time safe.
   bool cycle(std::int64_t scheduled) noexcept;
 
-  // One other thread: commands.
+  // Commands: from one other thread.
 
-  /// Hands a command over; false if the loop is far behind with earlier ones. Commands are carried
-  /// out in order, between two steps.
+  /// Queues a command; false if the queue is full. Commands are executed in order, between two
+  /// steps.
   bool send(const TwinCommand& command);
-  /// Has a system replaced between two steps, with its coordinates and rates as they are; records
-  /// carry the generation from then on, and one of the step reached is made at once. False, with
-  /// `next` left alone, while another command is under way.
+  /// Replaces a system between two steps, with unchanged coordinates and rates; later records have
+  /// this generation, and a record of the current step is published at once. False, leaving `next`
+  /// unchanged, while another command is under way.
   bool replace(std::size_t system, std::unique_ptr<Stepper>& next, std::int64_t generation);
-  /// The same for the law of a controller, which takes over from the one before.
+  /// Likewise for the control law of a controller, by bumpless transfer.
   bool replaceLaw(std::size_t controller, std::unique_ptr<Controller>& next,
                   std::int64_t generation);
-  /// Commands sent and carried out. A kStep counts when its last step is done.
+  /// Commands sent and executed. A kStep counts when its last step is done.
   std::uint64_t sent() const { return sent_; }
   std::uint64_t carriedOut() const { return carried_out_.load(std::memory_order_acquire); }
-  /// Of the last command carried out; read it while no other is under way.
+  /// Result of the last executed command; read it only while no other one is under way.
   TwinAnswer answer() const { return answer_; }
   bool paused() const { return paused_.load(std::memory_order_relaxed); }
 
-  // Any thread.
+  // From any thread.
 
-  /// Stands still from the next cycle on, ahead of the commands that wait; a kStep under way ends
-  /// there, as one that is not done.
+  /// Pauses from the next cycle on, before queued commands; a kStep under way is aborted, and is
+  /// not done.
   void pause() noexcept { pause_asked_.store(true, std::memory_order_relaxed); }
-  /// Asked to, and not yet done.
+  /// A pause is requested and not yet in effect.
   bool pausing() const noexcept { return pause_asked_.load(std::memory_order_acquire); }
-  /// The real-time factor, that Pace::canBe(); of commands it is independent.
+  /// Sets the real-time factor, see Pace::canBe(); independent of commands.
   void setPace(double factor) noexcept { pace_.set(factor); }
   double pace() const noexcept { return pace_.factor(); }
-  /// How far it may step.
-  StepGate& gate() noexcept { return gate_; }
-  /// What its parts take of a step.
+  /// Limits the steps.
+  StepBarrier& gate() noexcept { return gate_; }
+  /// Computing times of its parts.
   const StepTimes& stepTimes() const noexcept { return times_; }
   void resetStepTimes() noexcept { times_.reset(); }
-  /// Resets carried out.
+  /// Number of executed resets.
   std::uint64_t resets() const { return resets_.load(std::memory_order_relaxed); }
-  /// The step reached.
+  /// The current step.
   std::int64_t stepCount() const { return step_.load(std::memory_order_relaxed); }
-  /// What the records' generations stand for.
+  /// The generations that records refer to.
   const std::shared_ptr<SystemGenerations>& generations() const { return generations_; }
 
-  // One other thread: records, in order.
+  // Records: one other thread, in order.
   bool pop(double* record) noexcept { return ring_.pop(record); }
   std::uint64_t dropped() const noexcept { return ring_.dropped(); }
-  /// Those that wait, and how many there is room for.
+  /// Number of queued records, and capacity of the queue.
   std::size_t waiting() const noexcept { return ring_.waiting(); }
   std::size_t ringCapacity() const noexcept { return ring_.capacity(); }
-  /// The statistics of its ensembles, for the thread of the records; the twin outlives it.
+  /// Statistics of its ensembles, for the thread of the records; the twin must outlive it.
   EnsembleObserver ensembles() { return EnsembleObserver(twin_); }
 
  private:
   void carryOutCommands() noexcept;
   void pauseNow() noexcept;
   bool holds() const noexcept;
-  bool goOn(std::int64_t scheduled) noexcept;
+  bool resume(std::int64_t scheduled) noexcept;
   bool mayStep(std::int64_t now, std::int64_t end) noexcept;
   bool hasRoom() const noexcept { return ring_.hasRoomFor(7 * ring_.capacity() / 8); }
   void step(std::int64_t scheduled, bool several) noexcept;
@@ -198,13 +199,13 @@ class LiveTwin {
   std::atomic<std::int64_t> step_{0};
   std::atomic<std::uint64_t> resets_{0};
   TwinAnswer answer_;
-  std::unique_ptr<Stepper> retired_;         ///< by the last kReplace; deleted outside of the loop
+  std::unique_ptr<Stepper> retired_;         ///< from the last kReplace; deleted outside the loop
   std::unique_ptr<Controller> retired_law_;  ///< likewise, kReplaceLaw
-  std::uint64_t steps_to_do_ = 0;            ///< of a kStep under way
+  std::uint64_t steps_to_do_ = 0;            ///< of the kStep under way
   Pace pace_;
-  StepGate gate_;
+  StepBarrier gate_;
   StepTimes times_;
-  std::int64_t asked_ = 0;  ///< [ns], the twin last whether it may step
+  std::int64_t asked_ = 0;  ///< [ns], last call of Twin::mayStep()
   bool at_start_ = true;    ///< the state at step 0 has not been published
 };
 

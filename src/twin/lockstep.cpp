@@ -8,14 +8,14 @@ namespace whirl_twin {
 
 namespace {
 
-/// The last step of those that are published before one.
+/// The last published step before a given one.
 std::int64_t publishedBefore(std::int64_t step, std::int64_t every) {
   return ((step + every - 1) / every - 1) * every;
 }
 
 }  // namespace
 
-Lockstep::Lockstep(StepGate& gate, Settings settings, std::int64_t start)
+Lockstep::Lockstep(StepBarrier& gate, Settings settings, std::int64_t start)
     : gate_(gate),
       settings_(std::move(settings)),
       gathering_(on()),
@@ -47,7 +47,7 @@ void Lockstep::see(const std::string& who, bool there, double now) {
   if (!there) {
     return;
   }
-  // What was published before it will never hear.
+  // It does not receive earlier publications.
   listener->known = true;
   listener->left_out = false;
   listener->acknowledged = published_;
@@ -72,19 +72,19 @@ bool Lockstep::acknowledge(const std::string& who, std::int64_t step, double now
   return true;
 }
 
-void Lockstep::published(std::int64_t step, bool anew, double now) {
+void Lockstep::published(std::int64_t step, bool restarted, double now) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  run_ += anew ? 1 : 0;
+  run_ += restarted ? 1 : 0;
   for (Listener& listener : listeners_) {
-    if (anew) {
+    if (restarted) {
       listener.acknowledged = publishedBefore(step, settings_.every);
     }
-    if (listener.acknowledged >= published_ || anew) {
+    if (listener.acknowledged >= published_ || restarted) {
       listener.since = now;
     }
   }
   published_ = step;
-  if (anew) {
+  if (restarted) {
     handOut();
   }
 }
@@ -94,7 +94,7 @@ bool Lockstep::holdsUp(const Listener& listener) const {
          published_ >= listener.acknowledged + settings_.ahead * settings_.every;
 }
 
-/// As far as the slowest lets it.
+/// Sets the barrier to the limit of the slowest subscriber.
 void Lockstep::handOut() {
   if (!on() || gathering_) {
     return;

@@ -1,11 +1,12 @@
-// Lockstep with those who listen: who they are, how far each has come, and how far the twin may go.
+// Lockstep of the twin with its subscribers: who they are, how far each has acknowledged, and how
+// far the twin may step.
 //
-//   a listener that has dealt with all up to a step acknowledges it; the twin goes `ahead`
-//   publications beyond what the slowest of them has acknowledged, and waits there
+//   A subscriber that has processed all up to a step acknowledges it; the twin runs `ahead`
+//   publications beyond the last acknowledgement of the slowest one, and waits there.
 //
-// At its start the twin waits until all are there. One that acknowledges nothing for longer than
-// the timeout is overdue; once it is left out, nobody waits for it until it acknowledges again, or
-// is there anew.
+// At its start the twin waits for all subscribers. One that acknowledges nothing for longer than
+// the timeout is overdue; once excluded, it is not waited for until it acknowledges again, or is
+// discovered again.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "realtime/step_gate.h"
+#include "realtime/step_barrier.h"
 
 namespace whirl_twin {
 
@@ -26,40 +27,40 @@ class Lockstep {
     double timeout = 5.0;          ///< [s]
   };
 
-  /// Holds the gate, if there are any. start: the step at which the twin stands.
-  Lockstep(StepGate& gate, Settings settings, std::int64_t start);
+  /// Closes the barrier, if there are subscribers. start: the twin's current step.
+  Lockstep(StepBarrier& gate, Settings settings, std::int64_t start);
 
   bool on() const { return !settings_.who.empty(); }
   const Settings& settings() const { return settings_; }
 
-  // Any thread; now [s] is of a clock that nobody sets.
+  // From any thread; now [s] is on a monotonic clock.
 
-  /// Whether a listener is there now, and would hear what is published next.
+  /// Whether a subscriber is present and will receive the next publication.
   void see(const std::string& who, bool there, double now);
-  /// Has dealt with all up to a step. False for somebody else, and for a step that is yet to come.
+  /// All up to a step has been processed. False for an unknown subscriber, and for a future step.
   bool acknowledge(const std::string& who, std::int64_t step, double now);
-  /// A step has been published; anew: it is the first one after a reset.
-  void published(std::int64_t step, bool anew, double now);
+  /// A step has been published; restarted: the first one after a reset.
+  void published(std::int64_t step, bool restarted, double now);
 
-  /// Those who have kept the twin waiting for longer than the timeout, and are not left out.
+  /// Subscribers that have blocked the twin for longer than the timeout and are not excluded.
   std::vector<std::string> overdue(double now) const;
   void leaveOut(const std::vector<std::string>& who);
-  /// Those who keep it waiting for longer than so many seconds.
+  /// Subscribers that block it for longer than `patience` seconds.
   std::vector<std::string> waitsFor(double now, double patience) const;
-  /// Those who are left out.
+  /// Excluded subscribers.
   std::vector<std::string> leftOut() const;
-  /// Not all have been there yet.
+  /// Some have not been present yet.
   bool gathers() const;
   std::vector<std::string> missing() const;
 
  private:
   struct Listener {
     std::string name;
-    bool known = false;  // has been there
+    bool known = false;  // has been present
     bool there = false;
     bool left_out = false;
     std::int64_t acknowledged = 0;
-    double since = 0.0;  // [s], when the last of what it has not acknowledged was published
+    double since = 0.0;  // [s], last acknowledgement, or the first publication after it
   };
 
   Listener* find(const std::string& who);
@@ -68,13 +69,13 @@ class Lockstep {
   template <class Is>
   std::vector<std::string> namesOf(Is&& is) const;
 
-  StepGate& gate_;
+  StepBarrier& gate_;
   const Settings settings_;
   mutable std::mutex mutex_;
   std::vector<Listener> listeners_;
   bool gathering_;
-  std::int64_t published_;  // the newest; before the first, what would have been before it
-  std::uint64_t run_ = 0;   // resets seen
+  std::int64_t published_;  // the newest; initially the one before the first
+  std::uint64_t run_ = 0;   // number of resets
 };
 
 }  // namespace whirl_twin

@@ -57,7 +57,7 @@ MeasuredSource::Point MeasuredSource::signal(const Channel& channel,
   }
   const double* q = observer.coordinates(at.system);
   const double* v = observer.rates(at.system);
-  const Moment<double> moment = observer.moment(at.system);
+  const EvaluationPoint<double> moment = observer.moment(at.system);
   if (at.kind == SignalSpec::Kind::kCoordinate) {
     return {q[at.coordinate], v[at.coordinate]};
   }
@@ -71,7 +71,7 @@ MeasuredSource::Point MeasuredSource::signal(const Channel& channel,
             dynamics.acceleration(vector(q, n), vector(v, n),
                                   moment)[static_cast<Eigen::Index>(at.coordinate)]};
   }
-  const double cosine = std::cos(at.direction);  // along y: the rounding of a right angle
+  const double cosine = std::cos(at.direction);  // along y: removes the rounding of a right angle
   const Eigen::VectorXd along =
       (std::fabs(cosine) < 1.0e-16 ? 0.0 : cosine) * channel.station->along_x +
       std::sin(at.direction) * channel.station->along_y;
@@ -145,7 +145,7 @@ void MeasuredSource::collectSamples(std::vector<state::Measurement>& out) {
 void MeasuredSource::collectPulses(const Observer& observer, std::vector<state::Measurement>& out) {
   const ShaftInstant now = shaft(observer);
   for (const std::int64_t instant : keyphasor_->pulses(shaft_, now)) {
-    // Jitter may let a pulse overtake the one before: instants increase.
+    // Instants must increase: jitter may reorder pulses.
     last_pulse_ = std::max(instant, last_pulse_ + 1);
     message_.instant.push_back(last_pulse_);
     message_.value.push_back(1.0);
@@ -160,7 +160,7 @@ void MeasuredSource::collectPulses(const Observer& observer, std::vector<state::
 
 void MeasuredSource::send(std::vector<state::Measurement>& out) {
   if (message_.valid.empty()) {
-    return;  // of a shaft that stands still
+    return;  // no pulse, of a shaft at standstill
   }
   if (message_.period == 0) {
     message_.first_instant = message_.instant.front();

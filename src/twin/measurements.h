@@ -1,5 +1,5 @@
-// What the sensors of a scene measure of a running twin: blocks of samples, and the pulses of
-// keyphasors, as a data acquisition beside the machine would send them.
+// Simulated measurements of the sensors of a scene: blocks of samples, and keyphasor pulses, as
+// sent by a data acquisition system.
 #pragma once
 
 #include <cstdint>
@@ -18,21 +18,21 @@
 
 namespace whirl_twin {
 
-/// One source of measurements. Follows the observer from record to record; not for the real-time
+/// A source of measurements. Follows the observer from record to record; not for the real-time
 /// thread.
 class MeasuredSource {
  public:
-  /// From what the observer has seen last on.
+  /// Starts at the observer's last record.
   MeasuredSource(const SensorSpec& spec, const BuiltScene& scene, const Observer& observer);
 
-  /// What the observer has seen now, at most one step later; messages that are complete go to
+  /// The observer's current record, at most one step later; complete messages are appended to
   /// `out`.
   void observe(const Observer& observer, std::vector<state::Measurement>& out);
-  /// What is left, as a message that is shorter than the others.
+  /// The remaining samples, as a shorter message.
   void finish(std::vector<state::Measurement>& out);
 
  private:
-  /// A signal at a record.
+  /// Value of a signal at a record.
   struct Point {
     double value = 0.0;
     double rate = 0.0;
@@ -42,8 +42,8 @@ class MeasuredSource {
     std::optional<Station> station;  ///< of a displacement
     Sensor sensor;
     Point last;
-    std::int64_t next = 0;       ///< sample that comes next
-    std::deque<Sample> waiting;  ///< for the samples of the other channels
+    std::int64_t next = 0;       ///< next sample
+    std::deque<Sample> waiting;  ///< until the samples of the other channels are available
   };
 
   Point signal(const Channel& channel, const Observer& observer) const;
@@ -63,19 +63,19 @@ class MeasuredSource {
   std::optional<Keyphasor> keyphasor_;
   ShaftInstant shaft_;  ///< at the newest record
   std::int64_t last_pulse_ = std::numeric_limits<std::int64_t>::min() / 2;  ///< [ns]
-  std::int64_t first_ = 0;      ///< sample that the block begins with
+  std::int64_t first_ = 0;      ///< first sample of the block
   std::int64_t block_ = 1;      ///< samples in a message
   std::int64_t block_end_ = 0;  ///< [ns], of a keyphasor's message
-  state::Measurement message_;  ///< being filled
+  state::Measurement message_;  ///< under construction
 };
 
-/// The sensors of a scene by these names.
+/// The sensors of a scene, by these names.
 class Measurements {
  public:
   Measurements(const std::vector<SensorSpec>& sensors, const BuiltScene& scene,
                const Observer& observer);
 
-  /// As of a MeasuredSource; the messages of all of them that are complete by now.
+  /// As MeasuredSource::observe(); the complete messages of all sensors.
   std::vector<state::Measurement> observe(const Observer& observer);
   std::vector<state::Measurement> finish();
 

@@ -1,9 +1,10 @@
-// What a motor has given since the start and what has become of it, from the records of its shaft.
+// Energy balance of a motor since the start, from the records of its shaft.
 //
-// The motor's work is summed record by record, trapezoid and end slopes: h/2 (P0 + P1) + h^2/12
-// (P0' - P1'), P = T w, P' = (T' w + T) w'. What has been dissipated is that less the work that the
-// step itself audits, so that motor work = dissipated + gained energy holds as well as the audit
-// does, the energy residual. (What a cross-coupled stiffness gives counts as dissipated, negative.)
+// The motor's work is summed record by record by the trapezoidal rule with end corrections: h/2 (P0
+// + P1) + h^2/12 (P0' - P1'), P = T w, P' = (T' w + T) w'. The dissipated energy is this work less
+// the work audited by the step, so that motor work = dissipated + gained energy holds as accurately
+// as the audit, i.e. the energy residual. (Energy supplied by a cross-coupled stiffness counts as
+// negative dissipation.)
 #pragma once
 
 #include "control/motor.h"
@@ -12,14 +13,14 @@ namespace whirl_twin {
 
 class MotorTrack {
  public:
-  /// The shaft at a later record: time [s], speed [rad/s], acceleration [rad/s^2], and the audited
+  /// The shaft at the next record: time [s], speed [rad/s], acceleration [rad/s^2], and the audited
   /// work [J] of its system. The first one is the start.
   void observe(const Motor& motor, double time, double speed, double acceleration, double work);
   void restart() { *this = MotorTrack{}; }
 
   double power() const { return power_; }                            ///< [W], T w
   double work() const { return work_; }                              ///< [J], of the motor
-  double dissipated() const { return work_ - (audited_ - first_); }  ///< [J], drag included
+  double dissipated() const { return work_ - (audited_ - first_); }  ///< [J], including drag
 
  private:
   bool started_ = false;

@@ -24,7 +24,7 @@ state::WhirlState whirlState(const WhirlMotion& at, const WhirlPhase& phase, con
   s.shaft_angle = shaft.angle().total();
   s.orbit_major = s.orbit_minor = kNaN;
   if (std::fabs(s.speed) > slowest_orbit) {
-    // z = f e^(iwt) + b e^(-iwt) with z' known too: forward and backward parts of the 1X orbit.
+    // z = f e^(iwt) + b e^(-iwt), with z' known: forward and backward components of the 1X orbit.
     const double vx = at.x_rate / s.speed;
     const double vy = at.y_rate / s.speed;
     const double forward = 0.5 * std::hypot(at.x + vy, at.y - vx);

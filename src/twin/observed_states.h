@@ -1,5 +1,5 @@
-// The states that users see, filled from what a record holds and the tracks that follow it. Names
-// and instants are the observer's to add.
+// Fills state messages from a record and from the tracks of the observer. Names and instants are
+// added by the observer.
 #pragma once
 
 #include <vector>
@@ -15,13 +15,13 @@
 
 namespace whirl_twin {
 
-/// Below `slowest_orbit` [rad/s] there is no 1X orbit to speak of.
+/// Below `slowest_orbit` [rad/s] the 1X orbit is not defined.
 state::WhirlState whirlState(const WhirlMotion& at, const WhirlPhase& phase, const ShaftView& shaft,
                              double slowest_orbit);
 state::PendulumState pendulumState(const std::vector<CoordinateInfo>& coordinates,
                                    const SystemView& system, const Energies& energies);
 state::DriveState driveState(const ShaftView& shaft);
-/// Energies of the system that the motor turns.
+/// Energies of the system driven by the motor.
 state::MotorState motorState(const Motor& motor, const MotorTrack& track, const ShaftView& shaft,
                              const Energies& energies);
 

@@ -20,21 +20,21 @@ void EnergyAudit::observe(const Energies& energies, double work) {
   residual_ = scale_ > 0.0 ? (energies.jacobi - start_ - work) / scale_ : 0.0;
 }
 
-void ErrorTrack::observe(double time, double sum, double horizon, bool anew) {
+void ErrorTrack::observe(double time, double sum, double horizon, bool restarted) {
   const double kept = std::isnan(estimate_) ? 0.0 : estimate_ * std::exp(-(time - time_) / horizon);
-  const double now = kept + (anew || std::isnan(sum_) ? sum : sum - sum_);
-  estimate_ = now < 0.0 ? 0.0 : now;  // NaN stays
+  const double now = kept + (restarted || std::isnan(sum_) ? sum : sum - sum_);
+  estimate_ = now < 0.0 ? 0.0 : now;  // NaN is kept
   sum_ = sum;
   time_ = time;
 }
 
 namespace {
 
-/// Part of the lowest natural frequency below which the 1X orbit is not told: it divides by the
-/// speed.
+/// Fraction of the lowest natural frequency below which the 1X orbit is not published: it is
+/// divided by the speed.
 constexpr double kSlowestOrbit = 0.01;
 
-constexpr std::uint64_t kLongestReason = 100'000;  // characters
+constexpr std::uint64_t kMaxReason = 100'000;  // characters
 
 Eigen::VectorXd vector(const double* x, std::size_t n) {
   return Eigen::Map<const Eigen::VectorXd>(x, static_cast<Eigen::Index>(n));
@@ -75,8 +75,8 @@ void Observer::observe(const double* record) {
       track.whirl.settle(step(), shaftOf(i), track.dynamics->phaseMark(),
                          twin_.scene().stepSeconds());
     }
-    const bool anew = takeGeneration(i);
-    changed = anew || changed;
+    const bool replaced = takeGeneration(i);
+    changed = replaced || changed;
     if (status(i) != StepStatus::kOk) {
       if (track.stop_reason.empty()) {
         track.stop_reason =
@@ -84,7 +84,7 @@ void Observer::observe(const double* record) {
       }
       continue;
     }
-    follow(i, anew);
+    follow(i, replaced);
   }
   changed = takeControllers() || changed;
   followMotors(record_.data());
@@ -98,7 +98,7 @@ void Observer::exchange(StateImage& image) {
     std::uint64_t length = track.stop_reason.size();
     image(length);
     std::vector<char> reason(track.stop_reason.begin(), track.stop_reason.end());
-    reason.resize(std::min(length, kLongestReason));
+    reason.resize(std::min(length, kMaxReason));
     image(reason);
     track.stop_reason.assign(reason.begin(), reason.end());
   }
@@ -108,7 +108,7 @@ std::string Observer::whyStopped(std::size_t system) const {
   if (status(system) != StepStatus::kControllerLost) {
     return describe(status(system));
   }
-  // It may have answered again since.
+  // It may have answered again meanwhile.
   std::string why;
   for (std::size_t i = 0; i < controller_tracks_.size(); ++i) {
     const std::string own = describeLost(twin_.scene().controllers[i], system);
@@ -157,7 +157,7 @@ bool Observer::takeControllers() {
   return changed;
 }
 
-/// The published stations, where the dynamics of now have them; their phases go on.
+/// The published stations of the current dynamics; their phases continue.
 void Observer::takeStations(std::size_t system) {
   const std::string& name = twin_.systems()[system]->spec.name;
   const std::vector<Station> all = tracks_[system].dynamics->stations();
@@ -171,7 +171,7 @@ void Observer::takeStations(std::size_t system) {
   tracks_[system].whirl.put(published);
 }
 
-void Observer::follow(std::size_t system, bool anew) {
+void Observer::follow(std::size_t system, bool restarted) {
   Track& track = tracks_[system];
   const SystemView now = view(system);
   if (isRotor(system)) {
@@ -180,7 +180,7 @@ void Observer::follow(std::size_t system, bool anew) {
   }
   track.energy.observe(energies(system), now.work());
   track.error.observe(twin_.seconds(step()), now.errorSum(), twin_.systems()[system]->spec.horizon,
-                      anew);
+                      restarted);
 }
 
 SystemView Observer::view(std::size_t system) const {
@@ -215,7 +215,7 @@ const double* Observer::rates(std::size_t system) const {
   return view(system).v();
 }
 
-Moment<double> Observer::moment(std::size_t system) const {
+EvaluationPoint<double> Observer::moment(std::size_t system) const {
   const ShaftView now = shaftOf(system);
   return {twin_.seconds(step()), now.remainder(), now.speed(), now.acceleration()};
 }
@@ -228,7 +228,7 @@ Energies Observer::energies(std::size_t system) const {
   const SystemView now = view(system);
   Eigen::VectorXd q = vector(now.q(), now.dof());
   if (twin_.isMotor(twin_.systems()[system]->drive)) {
-    // The spin, the last coordinate, to the last digit without its whole turns.
+    // The spin, the last coordinate: exact to the last digit, without whole turns.
     q[q.size() - 1] = shaftOf(system).remainder();
   }
   return tracks_[system].dynamics->energies(q, vector(now.v(), now.dof()), moment(system));

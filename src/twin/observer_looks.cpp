@@ -1,4 +1,4 @@
-// The observer's looks at steps that nobody is told of.
+// Processing of steps that are not published.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,11 +9,10 @@ namespace whirl_twin {
 
 namespace {
 
-/// Steps from one whose energies are observed to the next, whoever is told: the largest in play is
-/// what the residual is a part of. Where every step is a linear rotor's own, which costs less than
-/// its energies do, fewer.
-constexpr std::int64_t kMostPassed = 64;
-constexpr std::int64_t kMostPassedOfLinearRotors = 512;
+/// Maximum number of steps between observed energies: the residual is relative to the largest
+/// energy. Steps of linear rotors cost less than their energies: for these it is larger.
+constexpr std::int64_t kMaxPassed = 64;
+constexpr std::int64_t kMaxPassedOfLinearRotors = 512;
 constexpr double kQuarterTurn = 0.5 * 3.14159265358979323846;
 
 bool isLinearRotor(const BuiltSystem& system) {
@@ -24,14 +23,14 @@ bool isLinearRotor(const BuiltSystem& system) {
 }  // namespace
 
 void Observer::prepareLooks() {
-  most_passed_ = kMostPassedOfLinearRotors;
+  most_passed_ = kMaxPassedOfLinearRotors;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const BuiltSystem& system = *twin_.systems()[i];
     if (isRotor(i)) {
       rotors_.push_back(i);
     }
     if (!isLinearRotor(system)) {
-      most_passed_ = kMostPassed;
+      most_passed_ = kMaxPassed;
     }
   }
   for (std::size_t i = 0; i < twin_.driveCount(); ++i) {

@@ -11,9 +11,9 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kPeriod = 0.05;           // [s], simulated
-constexpr std::size_t kAtOnce = 8;         // stations told in a period: an estimate is some 0.5 ms
-constexpr std::size_t kMostFollowed = 64;  // a window is 0.3 MB
+constexpr double kPeriod = 0.05;          // [s], simulated
+constexpr std::size_t kAtOnce = 8;        // stations per period: an estimate takes 0.5 ms
+constexpr std::size_t kMaxFollowed = 64;  // a window is 0.3 MB
 
 }  // namespace
 
@@ -25,7 +25,7 @@ OrderObserver::OrderObserver(const Twin& twin)
       continue;
     }
     const std::size_t stations = publishedStations(system.spec.name, *system.dynamics).size();
-    for (std::size_t k = 0; k < stations && followed_.size() < kMostFollowed; ++k) {
+    for (std::size_t k = 0; k < stations && followed_.size() < kMaxFollowed; ++k) {
       followed_.push_back({i, k, OrderFilter()});
     }
   }
@@ -46,7 +46,7 @@ std::vector<const OrderObserver::Followed*> OrderObserver::turnOf(const Observer
   if (!dueAt(observer.step())) {
     return turn;
   }
-  // Where there are many, groups take turns: by the step, so that a run repeats itself.
+  // Many stations are published in groups by turns; by the step, so that runs are reproducible.
   const std::size_t groups = (followed_.size() + kAtOnce - 1) / kAtOnce;
   const auto group = static_cast<std::size_t>(observer.step() / period_) % groups;
   for (std::size_t i = group; i < followed_.size(); i += groups) {
@@ -58,7 +58,7 @@ std::vector<const OrderObserver::Followed*> OrderObserver::turnOf(const Observer
 }
 
 state::OrderState OrderObserver::orderState(const Observer& observer, const Followed& followed) {
-  state::OrderState s = toldOrders(followed.filter.estimate());
+  state::OrderState s = reportedOrders(followed.filter.estimate());
   s.at = observer.instant();
   s.system = observer.stations(followed.system)[followed.station];
   return s;

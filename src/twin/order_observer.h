@@ -1,5 +1,5 @@
-// Follows the orders of a twin's rotors, each where its whirl is published, from every record: on
-// the side of the publisher, not in the real-time thread.
+// Order tracking of a twin's rotors at their published stations, from every record: in the
+// publisher's thread, not in the real-time thread.
 #pragma once
 
 #include <algorithm>
@@ -15,18 +15,18 @@ namespace whirl_twin {
 
 class OrderObserver {
  public:
-  /// The twin outlives it.
+  /// The twin must outlive it.
   explicit OrderObserver(const Twin& twin);
 
-  /// Takes the next record: every one, also those that the observer need not see. The observer has
-  /// seen this one, or one before of the same parameters.
+  /// The next record; must be called for every one, also for those the observer skips. The observer
+  /// must have this one, or an earlier one with the same parameters.
   void take(const double* record, const Observer& observer);
-  bool empty() const { return followed_.empty(); }  ///< there is no rotor
-  /// At this step orders are told, and the observer has to have seen its record.
+  bool empty() const { return followed_.empty(); }  ///< no rotor
+  /// Orders are published at this step, for which the observer needs its record.
   bool dueAt(std::int64_t step) const;
 
-  /// tell(subject, make) for the stations of these systems whose turn it is at the observer's step;
-  /// make() is the OrderState. Of a system that has stopped there are none.
+  /// Calls the function (subject, make) for the stations of these systems that are due at the
+  /// observer's step; make() returns the OrderState. None for a stopped system.
   template <class Tell>
   void tell(const Observer& observer, const std::vector<std::size_t>& systems, Tell&& tell) const {
     for (const Followed* followed : turnOf(observer)) {
@@ -49,7 +49,7 @@ class OrderObserver {
   std::vector<const Followed*> turnOf(const Observer& observer) const;
 
   std::vector<Followed> followed_;
-  std::int64_t period_;  // steps from one telling to the next
+  std::int64_t period_;  // steps between publications
 };
 
 }  // namespace whirl_twin

@@ -1,6 +1,6 @@
-// The fixed-size snapshot of one step that travels from the real-time thread to the publisher: a
-// flat row of doubles, whole numbers carried by their bits. The layout is set by the scene, once;
-// the places in it have names here and nowhere else.
+// Record: the fixed-size snapshot of one step that is passed from the real-time thread to the
+// publisher, a flat row of doubles with integers stored as their bits. The layout is fixed by the
+// scene and defined only here.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace whirl_twin {
 
-/// A whole number in a double's place.
+/// An integer stored in a double.
 inline double packed(std::int64_t value) noexcept {
   double bits;
   std::memcpy(&bits, &value, sizeof bits);
@@ -25,8 +25,8 @@ inline std::int64_t unpacked(double bits) noexcept {
   return value;
 }
 
-/// A drive in a record. Of a motor the jerk is 0 and the target the present speed: it has none.
-/// Number is double where it is written, const double where it is read.
+/// A drive in a record. For a motor the jerk is 0 and the target is the current speed. Number is
+/// double for writing, const double for reading.
 template <class Number>
 class ShaftPlace {
  public:
@@ -64,7 +64,7 @@ using ShaftView = ShaftPlace<const double>;
 template <class Number>
 class SystemPlace {
  public:
-  /// What Stepper::write() gives: q, v and the work.
+  /// Size of Stepper::write(): q, v and the work.
   static constexpr std::size_t motionSize(std::size_t dof) noexcept { return dof + dof + 1; }
   static constexpr std::size_t size(std::size_t dof) noexcept {
     return kMotion + motionSize(dof) + kAfterMotion;
@@ -80,10 +80,10 @@ class SystemPlace {
   Number* motion() const noexcept { return place_ + kMotion; }  ///< of motionSize()
   Number* q() const noexcept { return motion(); }               ///< [rad] or [m]
   Number* v() const noexcept { return q() + dof_; }             ///< [rad/s] or [m/s]
-  double work() const noexcept { return *(v() + dof_); }        ///< [J], since it was set
-  /// 0: as the scene says (system_generations.h).
+  double work() const noexcept { return *(v() + dof_); }        ///< [J], since the system was set
+  /// 0: the scene's (system_generations.h).
   std::int64_t generation() const noexcept { return unpacked(after_[kGeneration]); }
-  /// [-], of its steps' errors since it was set.
+  /// [-], sum of its step errors since it was set.
   double errorSum() const noexcept { return after_[kErrorSum]; }
 
   void setStatus(StepStatus status) const noexcept {
@@ -116,10 +116,10 @@ class ControllerPlace {
   std::int64_t samples() const noexcept { return unpacked(place_[kSamples]); }
   std::int64_t saturated() const noexcept { return unpacked(place_[kSaturated]); }
   std::int64_t missed() const noexcept { return unpacked(place_[kMissed]); }
-  /// Of one in another process: ExternalController::age(), lost().
+  /// Of an external one: ExternalController::age(), lost().
   std::int64_t age() const noexcept { return unpacked(place_[kAge]); }
   bool lost() const noexcept { return unpacked(place_[kLost]) != 0; }
-  /// 0: as the scene says (system_generations.h).
+  /// 0: the scene's (system_generations.h).
   std::int64_t generation() const noexcept { return unpacked(place_[kGeneration]); }
   std::int64_t supervision() const noexcept { return unpacked(place_[kSupervision]); }
   Number* values() const noexcept { return place_ + kValues; }      ///< of the signals
@@ -147,12 +147,12 @@ class ControllerPlace {
   std::size_t signals_;
 };
 
-/// How many signals a controller measures, and how many inputs it acts on.
+/// Number of measured signals and inputs of a controller.
 struct ControllerSize {
   std::size_t signals, inputs;
 };
 
-/// Where things stand in a record of a scene's twin.
+/// Offsets in the records of a scene's twin.
 class RecordLayout {
  public:
   std::size_t size = kDrives;  ///< [doubles]
@@ -174,9 +174,9 @@ class RecordLayout {
   /// Steps since the start.
   static std::int64_t step(const double* record) noexcept { return unpacked(record[kStep]); }
   static void setStep(double* record, std::int64_t step) noexcept { record[kStep] = packed(step); }
-  /// In place of when a step was due: it is no new one, the twin was saved where it stands.
+  /// In place of the due time: not a new step, the twin's state was saved there.
   static constexpr std::int64_t kSaved = INT64_MIN;
-  /// [ns], when the step was due; set by the loop.
+  /// [ns], due time of the step; set by the loop.
   static std::int64_t scheduled(const double* record) noexcept {
     return unpacked(record[kScheduled]);
   }

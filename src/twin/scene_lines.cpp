@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-/// A number is the same however it is written.
+/// A number has the same text in any notation.
 std::string normalised(const std::string& scalar) {
   const std::optional<double> number = parseNumber(scalar);
   return number ? fmt::format("{}", *number) : scalar;

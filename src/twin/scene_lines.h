@@ -1,5 +1,5 @@
-// What a scene says, line by line, whichever way it came: to tell whether two are the same, and if
-// not, in what.
+// Content of a scene line by line, independent of its notation: to find the differences between two
+// scenes.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -12,18 +12,18 @@
 
 namespace whirl_twin {
 
-/// "systems.rotor.parameters.mass" to "2": numbers as the shortest text that is that number, in
-/// whatever way they were written.
+/// "systems.rotor.parameters.mass" to "2": numbers as their shortest exact text, however they were
+/// written.
 using SceneLines = std::map<std::string, std::string>;
 
-/// Of a scene's YAML tree alone.
+/// Of a scene's YAML tree only.
 SceneLines sceneLines(const YAML::Node& tree);
 
-/// A scene's YAML tree as the message that goes with a run; source: its file, for messages.
+/// A scene's YAML tree as the message published with a run; source: its file, for messages.
 state::SceneText sceneText(const YAML::Node& tree, const std::string& source);
 
-/// Of a scene's YAML tree, and of the twin that it made: its step, the order of what is in it, the
-/// methods chosen, the tables of files that it names.
+/// Of a scene's YAML tree and of the twin made from it: its step, the order of its elements, the
+/// selected methods, the tables of its files.
 SceneLines sceneLines(const YAML::Node& tree, const Twin& twin);
 
 }  // namespace whirl_twin

@@ -48,7 +48,7 @@ StepMessages::StepMessages(const BuiltScene& scene, std::vector<std::size_t> sys
   }
   for (const std::size_t system : systems_) {
     if (built_[system]->drive <
-        scene_drives_.size()) {  // the others are constant speeds, no drives
+        scene_drives_.size()) {  // the others are constant speeds, not drives
       drives_.insert(built_[system]->drive);
     }
   }

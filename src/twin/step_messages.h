@@ -1,6 +1,6 @@
-// What leaves a step, said once for all who send, write or announce it: for each system its whirl
-// or its coordinates, for each drive its motion and that of its motor, the parameters, the spread
-// of an ensemble.
+// The messages of a step, common to all publishers, writers and discovery: for each system its
+// whirl or coordinates, for each drive its motion and that of its motor, parameters, statistics of
+// ensembles.
 #pragma once
 
 #include <cmath>
@@ -20,11 +20,11 @@ namespace whirl_twin {
 
 class StepMessages {
  public:
-  /// Of these systems of a scene and the drives that turn them, or of all systems and drives.
+  /// Of these systems of a scene and their drives, or of all systems and drives.
   explicit StepMessages(const BuiltScene& scene);
   StepMessages(const BuiltScene& scene, std::vector<std::size_t> systems);
 
-  /// announce(KindOf<State>, subject) for all that will be told.
+  /// announce(KindOf<State>, subject) for all messages to be published.
   template <class Announce>
   void announce(Announce&& announce) const {
     eachState([&](const std::string& subject, std::size_t, auto state) {
@@ -47,11 +47,11 @@ class StepMessages {
     }
   }
 
-  /// Tells `sink` of the step that the observer stands at. A system that has stopped is silent.
-  ///   sink(subject, make)   make() is the message, and need not be called if nobody wants it
-  ///   sink.change(change)   parameters, at the start and where they have changed
-  ///   sink.again(change)    the same every 10 s of simulated time, for those who came later
-  /// all: false leaves all but the parameters out.
+  /// Passes the messages of the observer's step to `sink`; none for a system that has stopped.
+  ///   sink(subject, make)   make() returns the message; may be omitted without a receiver
+  ///   sink.change(change)   parameters, at the start and after a change
+  ///   sink.again(change)    the same every 10 s of simulated time, for late subscribers
+  /// all: false omits all but the parameters.
   template <class Sink>
   void tell(const Observer& observer, bool all, Sink&& sink) {
     for (std::size_t i = 0; i < systems_.size(); ++i) {
@@ -72,24 +72,24 @@ class StepMessages {
     });
   }
 
-  /// Tells `sink` as sink(subject, make) the orders that are due at the observer's step.
+  /// Calls sink(subject, make) for the orders that are due at the observer's step.
   template <class Sink>
   void tellOrders(const Observer& observer, const OrderObserver& orders, Sink&& sink) const {
     orders.tell(observer, systems_, sink);
   }
 
-  /// The parameters as they were told last, as sink.again(change), for those who have come since.
+  /// The last published parameters as sink.again(change), for late subscribers.
   template <class Sink>
   void tellAgain(Sink&& sink) const {
-    for (const Told& told : told_) {
+    for (const Published& told : told_) {
       if (!told.parameters.system.empty()) {
         sink.again(told.parameters);
       }
     }
   }
 
-  /// Tells `sink` as sink(subject, make) the spread of those ensembles of which take(system, now,
-  /// out) has one.
+  /// Calls sink(subject, make) for the statistics of the ensembles for which take(system, now, out)
+  /// has new ones.
   template <class Take, class Sink>
   void tellEnsembles(const Observer& observer, Take&& take, Sink&& sink) const {
     state::EnsembleState ensemble;
@@ -101,16 +101,16 @@ class StepMessages {
   }
 
  private:
-  struct Told {
+  struct Published {
     std::int64_t generation = -1;
     state::ParameterChange parameters;
-    double time = 0.0;  // [s], simulated, when they were told last
+    double time = 0.0;  // [s], simulated, of the last publication
   };
   static constexpr double kAgain = 10.0;  // s, simulated
 
   const std::string& nameOf(std::size_t system) const { return built_[system]->spec.name; }
 
-  /// visit(subject, system that has to run, state(observer)): every state.
+  /// visit(subject, system that must be running, state(observer)): every state.
   template <class Visit>
   void eachState(Visit&& visit) const {
     for (const std::size_t i : systems_) {
@@ -140,10 +140,10 @@ class StepMessages {
 
   template <class Sink>
   static void tellParameters(const state::Instant& at, std::int64_t generation,
-                             const state::ParameterChange& now, Told& told, Sink& sink) {
+                             const state::ParameterChange& now, Published& told, Sink& sink) {
     if (generation != told.generation) {
       told.generation = generation;
-      // A system made ready for other speeds is a new generation with the same parameters.
+      // A system prepared for other speeds is a new generation with the same parameters.
       if (told.parameters.system.empty() || now.values != told.parameters.values) {
         told.parameters = now;
         told.parameters.at = at;
@@ -159,13 +159,13 @@ class StepMessages {
 
   std::vector<SharedSystem> built_;      // all of the scene
   std::vector<DriveSpec> scene_drives_;  // likewise
-  std::vector<std::size_t> turned_by_;   // by each of them, the last of the systems
+  std::vector<std::size_t> turned_by_;   // for each of them, the last of its systems
   std::vector<std::size_t> systems_;
   std::set<std::size_t> drives_;
   std::vector<std::string> controller_names_;  // of all of the scene
   std::vector<std::size_t> controllers_;       // those that measure or act on systems_
   std::vector<std::size_t> tunable_;           // of these, those with parameters
-  std::vector<Told> told_;                     // of systems_, then of tunable_
+  std::vector<Published> told_;                // of systems_, then of tunable_
 };
 
 }  // namespace whirl_twin

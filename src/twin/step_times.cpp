@@ -6,8 +6,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kLook = 25;          // [ns], at the clock
-constexpr std::int64_t kLeastShare = 1000;  // a period is so many times what the looks take
+constexpr std::int64_t kLook = 25;        // [ns], duration of a clock reading
+constexpr std::int64_t kMinShare = 1000;  // period over the time of clock readings
 
 template <class Value>
 void add(std::atomic<Value>& sum, Value more) noexcept {
@@ -20,7 +20,7 @@ StepTimes::StepTimes(std::size_t parts, std::int64_t period)
     : parts_(parts),
       period_(period),
       stride_(std::max<std::int64_t>(
-          1, static_cast<std::int64_t>(parts + 1) * kLook * kLeastShare / period)) {}
+          1, static_cast<std::int64_t>(parts + 1) * kLook * kMinShare / period)) {}
 
 StepTimes::Taken StepTimes::of(std::size_t part) const noexcept {
   const Part& of = parts_[part];

@@ -1,9 +1,9 @@
-// What each part of a twin takes of its steps (its systems; its controllers together), and of which
-// of them a step was that ended too late. Of wall time: what preempts the loop counts for whom it
-// hits, whose mean tells that it is another's fault.
+// Computing time of each part of a twin per step (each system; all controllers together), and the
+// part that was longest in steps that ended too late. Measured in wall time: a preemption counts
+// for the part it interrupts; a small mean of that part reveals it.
 //
-// A look at the clock takes 20 to 50 ns. So as many steps are timed as keep that below a thousandth
-// of the periods, and one of 64 where there are several in a period.
+// A reading of the clock takes 20 to 50 ns. The fraction of timed steps is chosen so that this
+// costs less than a thousandth of the periods; with several steps in a period one in 64 is timed.
 #pragma once
 
 #include <atomic>
@@ -20,10 +20,9 @@ class StepTimes {
  public:
   /// Of one part, since the start or the last reset.
   struct Taken {
-    double mean = 0.0;         ///< [ns] a step; 0: none was timed
-    std::int64_t longest = 0;  ///< [ns]
-    std::uint64_t long_steps =
-        0;  ///< of the steps that ended too late, those of which it took most
+    double mean = 0.0;             ///< [ns] per step; 0: none was timed
+    std::int64_t longest = 0;      ///< [ns]
+    std::uint64_t long_steps = 0;  ///< late steps in which it was the longest part
   };
 
   /// period [ns]: of the loop.
@@ -32,13 +31,13 @@ class StepTimes {
   std::size_t parts() const { return parts_.size(); }
   /// Any thread.
   Taken of(std::size_t part) const noexcept;
-  /// Any thread: all begin anew, before the next cycle.
+  /// From any thread: resets all statistics before the next cycle.
   void reset() noexcept { reset_requested_.store(true, std::memory_order_relaxed); }
 
   // The loop's thread. Real-time safe.
 
   void beginCycle() noexcept;
-  /// Whether the step that follows is to be timed.
+  /// Whether the next step is timed.
   bool isDue(bool several) noexcept {
     if (--left_ > 0) {
       return false;
@@ -52,44 +51,44 @@ class StepTimes {
       begun_ = marked_;
     }
   }
-  /// What has gone by since the last mark was this part's.
+  /// Assigns the time since the last mark to this part.
   void mark(std::size_t part) noexcept {
     const std::int64_t now = monotonicNow();
     parts_[part].step += now - marked_;
     marked_ = now;
   }
   void endStep() noexcept;
-  /// scheduled [ns]: when the cycle was due.
+  /// scheduled [ns]: due time of the cycle.
   void endCycle(std::int64_t scheduled) noexcept;
 
  private:
   static constexpr std::int64_t kOfSeveral = 64;  // steps
 
   struct Part {
-    // Written by the loop alone, read by any.
+    // Written by the loop only, read by any thread.
     std::atomic<std::uint64_t> count{0};
     std::atomic<std::int64_t> sum{0};      // [ns]
     std::atomic<std::int64_t> longest{0};  // [ns]
     std::atomic<std::uint64_t> long_steps{0};
-    std::int64_t step = 0;   // [ns], of the step that is being timed
-    std::int64_t cycle = 0;  // [ns], of those of the cycle
+    std::int64_t step = 0;   // [ns], of the timed step
+    std::int64_t cycle = 0;  // [ns], sum of the cycle
   };
 
   std::vector<Part> parts_;
   std::int64_t period_;     // [ns]
   std::int64_t stride_;     // steps
-  std::int64_t left_ = 1;   // steps to the next that is timed
-  std::int64_t begun_ = 0;  // [ns], first of the cycle; 0: none yet
+  std::int64_t left_ = 1;   // steps until the next timed one
+  std::int64_t begun_ = 0;  // [ns], start of the cycle; 0: none yet
   std::int64_t marked_ = 0;
   std::atomic<bool> reset_requested_{false};
 };
 
-/// The marks of a step that nobody times.
+/// Marks of a step that is not timed.
 struct NoMarks {
   void operator()(std::size_t) const noexcept {}
 };
 
-/// Those of one that is timed.
+/// Marks of a timed step.
 struct TimingMarks {
   StepTimes& times;
   void operator()(std::size_t part) const noexcept { times.mark(part); }

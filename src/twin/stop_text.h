@@ -1,4 +1,4 @@
-// Why a system stopped, in words.
+// Text of the reason why a system stopped.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace whirl_twin {
 /// "state not finite", "implicit step did not converge" or that it was not prepared for the speed;
 /// "" while running.
 const char* describe(StepStatus status);
-/// "controller pd has not answered for 0.5 s of wall time (on_timeout: stop)", if it is one that
-/// stops this system when it is lost; else "".
+/// "controller pd has not answered for 0.5 s of wall time (on_timeout: stop)", if this controller
+/// stops the system when it is lost; else "".
 std::string describeLost(const ControllerSpec& controller, std::size_t system);
 
 /// "rotor: stopped in step 41 (t = 0.041 s), state not finite; last good state: x = ..., ..."

@@ -1,7 +1,6 @@
-// What each system and each controller of a running twin has been: its dynamics, if it is a system,
-// and its parameters, generation by generation. A change of parameters makes a new generation
-// before the loop takes it over; the records say which one they are of. Safe to use from several
-// threads, none of them the loop's.
+// Generations of each system and controller of a running twin: the dynamics of a system, and the
+// parameters. A change of parameters makes a new generation before the loop uses it; records
+// contain the number of their generation. Safe to use from several threads, except the loop's.
 #pragma once
 
 #include <cstdint>
@@ -16,25 +15,25 @@
 
 namespace whirl_twin {
 
-/// A system or a controller from one change of its parameters to the next.
+/// A system or a controller between two changes of its parameters.
 struct SystemGeneration {
   std::shared_ptr<const Dynamics> dynamics;  ///< null: a controller's
   state::ParameterChange parameters;         ///< without its instant
 };
 
-/// `which` counts the systems of the scene first, then its controllers.
+/// `which`: systems of the scene first, then its controllers.
 class SystemGenerations {
  public:
-  /// Generation 0 of each: as the scene says.
+  /// Generation 0 of each: the scene's.
   explicit SystemGenerations(const Twin& twin);
 
-  /// Takes a further generation, and returns its number.
+  /// Adds a generation and returns its number.
   std::int64_t add(std::size_t which, SystemGeneration generation);
-  /// Takes one under the number that it had where it comes from; those added later go on from it.
+  /// Adds one with a given number, from a checkpoint; later ones are counted from it.
   void restore(std::size_t which, std::int64_t number, SystemGeneration generation);
   /// A generation that was added and not forgotten.
   std::shared_ptr<const SystemGeneration> at(std::size_t which, std::int64_t generation) const;
-  /// Forgets generations before this one, but not 0, to which a reset returns.
+  /// Removes generations before this one, except 0, which is used after a reset.
   void forgetBefore(std::size_t which, std::int64_t generation);
 
  private:

@@ -20,7 +20,7 @@ std::string whyItWouldStop(const BuiltScene& scene, const BuiltSystem& system,
                            std::optional<double> speed) {
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     if (scene.systems[i]->spec.name == system.spec.name && isControlled(scene.scene, i)) {
-      return "";  // alone it moves otherwise
+      return "";  // it would move differently
     }
   }
   Drive drive = speed ? Drive(*speed, 0.0) : scene.driveOf(system);

@@ -1,5 +1,5 @@
-// Whether a system would go on with what it is to be given: it is stepped beside the loop, from the
-// scene's start. What overflows, or grows by far too long a step, does so within a few steps.
+// Trial of a changed system: steps it outside the loop from the scene's start. An overflow, or the
+// growth with a far too long step, shows within a few steps.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace whirl_twin {
 
-/// Why `system`, one of the scene's as it is to be, would stop in the first 200 steps, on its drive
-/// or at a constant speed [rad/s]; "" if it goes on. Throws RunFailure where its steps cannot be
-/// prepared. A system with controllers is not tried: alone it moves otherwise.
+/// Why `system`, a changed one of the scene's, would stop in the first 200 steps, on its drive or
+/// at a constant speed [rad/s]; "" if it continues. Throws RunFailure if its steps cannot be
+/// prepared. Systems with controllers are not tried: without these they move differently.
 std::string whyItWouldStop(const BuiltScene& scene, const BuiltSystem& system,
                            std::optional<double> speed = std::nullopt);
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "messages/checksum.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "scene/scene_error.h"
 
 namespace whirl_twin {
@@ -77,8 +77,8 @@ void Twin::buildEnsembles() {
     };
     try {
       ensembles_[i] = std::make_unique<Ensemble>(scene(), system,
-                                                 Excitation(drives_[system.drive], &inputs_[i]));
-    } catch (const Refusal& error) {
+                                                 StepContext(drives_[system.drive], &inputs_[i]));
+    } catch (const InputError& error) {
       throw refused(error);
     } catch (const RunFailure& error) {  // its steps cannot be prepared
       throw refused(error);
@@ -103,8 +103,8 @@ double Twin::seconds(std::int64_t steps) const noexcept {
   return static_cast<double>(scene().time + steps * scene().step) / 1.0e9;
 }
 
-// A rotor's own step takes so little that what is around it counts: what a scene may do without is
-// out of the way.
+// A rotor's own step is so short that the code around it counts: optional parts of a scene are kept
+// out of line.
 void Twin::step() noexcept {
   stepMarked(NoMarks{});
 }
@@ -125,7 +125,7 @@ std::int64_t Twin::steps(std::int64_t count) noexcept {
   times.endStep();
 }
 
-/// Did every system that ran take it?
+/// True if every system that was running completed the step.
 template <class Marks>
 inline bool Twin::stepMarked(const Marks& marks) noexcept {
   const double time = this->time();
@@ -143,7 +143,7 @@ inline bool Twin::stepMarked(const Marks& marks) noexcept {
     marks(i);
   }
   if (accompanied_) {
-    goOnAccompanied(time, marks);
+    advanceAccompanied(time, marks);
   } else {
     ++steps_;
     beginDrives();
@@ -151,7 +151,7 @@ inline bool Twin::stepMarked(const Marks& marks) noexcept {
   return all_went_on;
 }
 
-/// From instant to instant of the controllers, what they measure and act on; the others whole.
+/// From sample instant to sample instant for controlled systems; in one step for the others.
 template <class Marks>
 [[gnu::noinline]] bool Twin::stepControlled(double time, const Marks& marks) noexcept {
   const auto running = [this] {
@@ -177,12 +177,12 @@ template <class Marks>
     marks(running_.size());
     from = to;
   }
-  goOnAccompanied(time, marks);
+  advanceAccompanied(time, marks);
   return running() == before;
 }
 
 template <class Marks>
-void Twin::goOnAccompanied(double time, const Marks& marks) noexcept {
+void Twin::advanceAccompanied(double time, const Marks& marks) noexcept {
   for (std::size_t k = 0; k < stepped_ensembles_.size(); ++k) {
     stepped_ensembles_[k]->step(time);
     marks(stepped_of_[k]);
@@ -236,7 +236,7 @@ void Twin::exchange(StateImage& image) noexcept {
   image.requireWithin(
       steps_, std::int64_t{0},
       (std::numeric_limits<std::int64_t>::max() / 2 - std::abs(scene().time)) / scene().step);
-  // Of what is in each place: a fingerprint, because a copy would allocate.
+  // A fingerprint of the generations, because a copy would allocate.
   const auto ofGenerations = [this] {
     return fingerprint(generation_.data(), generation_.size() * sizeof generation_[0]);
   };

@@ -19,12 +19,12 @@ void WhirlPhase::observe(const WhirlMotion& whirl, const ShaftMark& mark) {
   }
   largest_radius_ = std::max(largest_radius_, radius);
   largest_square_ = largest_radius_ * largest_radius_;
-  valid_ = radius > kSmallestRadius * largest_radius_;
+  valid_ = radius > kMinRadius * largest_radius_;
   if (!valid_) {
     return;
   }
   const double lag = mark.direction() - std::atan2(whirl.y, whirl.x);
-  // Whole turns, so that the last bit does not depend on which records were seen before.
+  // Whole turns, so that the last bit does not depend on the observed records.
   turns_ = std::nearbyint((lag_ - lag) / (2.0 * kPi));
   lag_ = lag + 2.0 * kPi * turns_;
   mark_ = mark;
@@ -48,7 +48,7 @@ double WhirlPhase::lag() const {
   return valid_ ? lag_ : std::numeric_limits<double>::quiet_NaN();
 }
 
-void FollowedWhirl::put(const std::vector<Station>& stations) {
+void WhirlPhaseTracker::put(const std::vector<Station>& stations) {
   places_.resize(stations.size());
   for (std::size_t k = 0; k < stations.size(); ++k) {
     Place& place = places_[k];
@@ -61,7 +61,7 @@ void FollowedWhirl::put(const std::vector<Station>& stations) {
   }
 }
 
-WhirlMotion FollowedWhirl::motion(std::size_t k, const double* q, const double* v) const {
+WhirlMotion WhirlPhaseTracker::motion(std::size_t k, const double* q, const double* v) const {
   const Station& at = places_[k].at;
   const Eigen::Map<const Eigen::VectorXd> places(q, at.along_x.size());
   const Eigen::Map<const Eigen::VectorXd> rates(v, at.along_x.size());
@@ -69,8 +69,8 @@ WhirlMotion FollowedWhirl::motion(std::size_t k, const double* q, const double* 
           at.along_y.dot(rates)};
 }
 
-void FollowedWhirl::settle(std::int64_t step, const ShaftView& shaft, double on_shaft,
-                           double seconds) {
+void WhirlPhaseTracker::settle(std::int64_t step, const ShaftView& shaft, double on_shaft,
+                               double seconds) {
   for (Place& place : places_) {
     ShaftMark then{shaft.angle(), on_shaft};
     if (place.seen != step) {
@@ -81,15 +81,15 @@ void FollowedWhirl::settle(std::int64_t step, const ShaftView& shaft, double on_
   }
 }
 
-void FollowedWhirl::observe(std::int64_t step, const double* q, const double* v,
-                            const ShaftMark& mark) {
+void WhirlPhaseTracker::observe(std::int64_t step, const double* q, const double* v,
+                                const ShaftMark& mark) {
   for (std::size_t k = 0; k < places_.size(); ++k) {
     places_[k].phase.observe(motion(k, q, v), mark);
     places_[k].seen = step;
   }
 }
 
-bool FollowedWhirl::follow(std::int64_t step, const double* q) noexcept {
+bool WhirlPhaseTracker::follow(std::int64_t step, const double* q) noexcept {
   for (Place& place : places_) {
     double x = 0.0;
     double y = 0.0;

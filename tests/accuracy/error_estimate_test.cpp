@@ -1,5 +1,4 @@
-// The error that the twin estimates while it runs, against the true one, for every engine that
-// steps.
+// The running error estimate of the twin against the true error, for every engine.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -69,9 +68,9 @@ TEST_P(ErrorEstimate, IsThatOfTheHorizonWithinItsSize) {
   const double error =
       ErrorCurve(motion(one, kInterval, samples), truth.trajectory).position(samples - 1);
   ASSERT_GT(error, 1e-11) << "rounding: a coarser step is wanted";
-  // Errors of single steps partly cancel, so that their sum is more than what is left; the
-  // sum over a time constant of one horizon is 1 - 1/e of that over the horizon. Those of a long
-  // past are high derivatives, mostly of overtones, which cancel better.
+  // Errors of single steps partly cancel, so that their sum exceeds the global error; the sum over
+  // a time constant of one horizon is 1 - 1/e of that over the horizon. The errors of a method with
+  // a long step history are high derivatives, mostly of overtones, which cancel better.
   EXPECT_GT(observer.errorEstimate(0), 0.5 * error) << error;
   EXPECT_LT(observer.errorEstimate(0), GetParam().most * error) << error;
 }
@@ -143,8 +142,8 @@ double largestEstimate(const Scene& one, double duration) {
   return largest;
 }
 
-// What `auto` keeps is never reported as lost: in the first steps a rate is a thousandth of what it
-// will be, and its error was counted relative to that.
+// A tolerance that `auto` meets is never reported as lost: in the first steps a rate is a
+// thousandth of its later value, and its error was taken relative to that.
 TEST(ErrorEstimateOf, AMotionFromRestInFrictionIsWithinTheToleranceThatIsKept) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform;
@@ -223,7 +222,7 @@ constexpr const char* kRunUp =
 
 constexpr const char* kByTable = ", internal_damping: 6}, inputs: {force_x: 0.0}}}}";
 
-// The table over speed leaves out the change of speed inside a step: 0.02 s are coarse.
+// The table over speed neglects the change of speed inside a step: 0.02 s are coarse.
 TEST(ErrorEstimateOf, ARotorSteppedFromATableOverSpeed) {
   const Estimated coarse = estimated(sceneOf(std::string("{step: 0.02, ") + kRunUp + kByTable));
   ASSERT_GT(coarse.error, 1e-6);

@@ -15,7 +15,7 @@ namespace whirl_twin {
 namespace {
 
 using Eigen::VectorXd;
-/// Numbers of 64 bits, so that the judge's own rounding is nowhere near the twin's.
+/// Extended precision (64-bit significand): the rounding of the reference is far below the twin's.
 using Real = long double;
 using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
@@ -27,10 +27,11 @@ constexpr double kFineByHand = 3.0e-18;
 constexpr double kCoarseByHand = 3.0e-16;
 /// The two runs take other steps, so that their rounding differs, too.
 constexpr double kOtherStep = 0.37;
-constexpr double kLeastStep = 1.0e-12;  // s
-/// Across a corner of the forces at a step's start the even and the odd nodes of the midpoint rule
-/// each go a smooth way of their own, and all columns agree on a motion that is none. In parts of
-/// the largest acceleration, what the rates at two neighbours may miss of the trapezoidal rule.
+constexpr double kMinStep = 1.0e-12;  // s
+/// If the force has a breakpoint at a step's start, the even and the odd nodes of the midpoint rule
+/// follow two different smooth curves, and all columns converge to a wrong motion. Tolerance for
+/// the deviation of the rates of two neighbouring nodes from the trapezoidal rule, relative to the
+/// largest acceleration.
 constexpr Real kRough = 0.25L;
 
 struct State {
@@ -53,8 +54,8 @@ class PlainDoublePendulum {
         *own.at(name) = value;
       }
     }
-    // What a scene leaves out, and what its defaults mean the same by: masses at the ends, and
-    // numbers of the friction, the motors and the air that are not there.
+    // Accepts parameters left out of a scene, or equal to their defaults: masses at the ends, and
+    // zero friction, motors and air drag.
     const std::map<std::string, Real> plain{{"center1", l1_}, {"center2", l2_}};
     for (const auto& [name, value] : spec.parameters) {
       if (plain.count(name) != 0) {
@@ -89,7 +90,7 @@ class PlainDoublePendulum {
 
 class Extrapolation {
  public:
-  /// longest: of a step, in parts of the interval.
+  /// longest: of a step, relative to the interval.
   Extrapolation(const Scene& one, double tolerance, double longest, double evaluations)
       : built_(build(one)),
         dynamics_(*built_.systems.front()->dynamics),
@@ -127,7 +128,7 @@ class Extrapolation {
   }
 
  private:
-  /// From an instant [ns] on by so long [s], from corner to corner of the drive.
+  /// Advances from an instant [ns] by a duration [s], from breakpoint to breakpoint of the drive.
   bool advance(std::int64_t from, double duration, State& y) {
     drive_.begin(from);
     time_ = 1.0e-9 * static_cast<double>(from);
@@ -138,7 +139,7 @@ class Extrapolation {
       const bool last = h >= (corner - offset) * (1.0 - 1.0e-12);
       State next = y;
       const double error = extrapolated(offset, h, next);
-      if (left_ < 0.0 || h < kLeastStep) {
+      if (left_ < 0.0 || h < kMinStep) {
         return false;
       }
       const double factor = std::clamp(0.9 * std::pow(error, -1.0 / (2 * kColumns - 1)), 0.1, 3.0);
@@ -167,7 +168,7 @@ class Extrapolation {
         .cast<Real>();
   }
 
-  /// Returns its error in parts of what is allowed.
+  /// Returns the error relative to the tolerance.
   double extrapolated(double offset, double h, State& y) {
     std::array<State, kColumns> row;
     const State start = y;
@@ -219,7 +220,7 @@ class Extrapolation {
     return {0.5L * (now.q + before.q + h * now.v), 0.5L * (now.v + before.v + h * a)};
   }
 
-  /// In parts of the largest so far, of all coordinates and rates of a unit.
+  /// Relative to the largest value so far, over all coordinates and rates of a unit.
   double distance(const State& a, const State& b) const {
     double largest = 0.0;
     const Real q = std::max(q_size_.maxCoeff(), a.q.cwiseAbs().maxCoeff());

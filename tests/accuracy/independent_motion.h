@@ -1,8 +1,8 @@
-// The motion of a system by a method that the twin does not have: Gragg's modified midpoint rule,
-// extrapolated in the square of its step to order 16 (Hairer, Norsett & Wanner, Solving Ordinary
-// Differential Equations I, 2nd ed. 1993, II.9), at steps that it chooses itself, on the
-// accelerations of the model's Dynamics: none of the twin's steppers, drives' phasors or tables has
-// a part in it. For tests that judge what the twin promises.
+// Reference motion of a system by a method that the twin does not have: Gragg's modified midpoint
+// rule, extrapolated in the square of its step to order 16 (Hairer, Norsett & Wanner, Solving
+// Ordinary Differential Equations I, 2nd ed. 1993, II.9), with adaptive steps, on the accelerations
+// of the model's Dynamics: it shares none of the twin's steppers, drives' phasors or tables. For
+// tests of the twin's error bounds.
 #pragma once
 
 #include <cstdint>

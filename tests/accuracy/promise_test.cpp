@@ -1,14 +1,13 @@
-// Promises where they are hard to keep: at coarse steps, across narrow dry friction, in chaos, at
-// speeds that no step resolves, and in run-ups of linear rotors. Each is judged by a method that
-// the twin does not have; what cannot be known is not promised.
-#include "accuracy/promise.h"
-
+// Error bounds in difficult cases: coarse steps, narrow dry friction, chaos, speeds that no step
+// resolves, and run-ups of linear rotors. Each is checked with a method that the twin does not
+// have; where no bound can be known, none is given.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
 #include "../scene/scenes.h"
+#include "accuracy/error_bound.h"
 #include "accuracy/step_choice.h"
 #include "independent_motion.h"
 #include "scene/built_scene.h"
@@ -43,7 +42,7 @@ Scene pendulum(const std::string& step, const std::string& more) {
                  more + "}}}");
 }
 
-TEST(Promise, IsKeptAtStepsFarTooCoarseForAnyMethodByItself) {
+TEST(ErrorBound, IsKeptAtStepsFarTooCoarseForAnyMethodByItself) {
   for (const char* step : {"0.1", "0.5", "1.0", "10.0"}) {
     SCOPED_TRACE(step);
     expectKept(pendulum(step, ""));
@@ -51,7 +50,7 @@ TEST(Promise, IsKeptAtStepsFarTooCoarseForAnyMethodByItself) {
   }
 }
 
-TEST(Promise, IsKeptInRunUpsOfLinearRotorsAtCoarseSteps) {
+TEST(ErrorBound, IsKeptInRunUpsOfLinearRotorsAtCoarseSteps) {
   for (const char* step : {"0.005", "0.02"}) {
     for (const char* more : {"", ", internal_damping: 6, stiffness_y: 2.2e4"}) {
       for (const char* tolerance : {"1.0e-6", "1.0e-9"}) {
@@ -69,7 +68,7 @@ TEST(Promise, IsKeptInRunUpsOfLinearRotorsAtCoarseSteps) {
   }
 }
 
-TEST(Promise, OfNarrowDryFrictionEndsWhereItIsNotKnown) {
+TEST(ErrorBound, OfNarrowDryFrictionEndsWhereItIsNotKnown) {
   for (const char* width : {"3.0e-6", "1.0e-6", "1.0e-8"}) {
     SCOPED_TRACE(width);
     const StepChoice choice = chooseStep(sceneOf(
@@ -77,7 +76,7 @@ TEST(Promise, OfNarrowDryFrictionEndsWhereItIsNotKnown) {
                     "parameters: {mass: 1, friction_coefficient: 0.3, half_spacing: 0.0762, "
                     "height: 0.0127, roller_speed: 0.2, regularization: ") +
         width + "}, initial: {x: 0.05}}}}"));
-    const Promise& p = choice.promise;
+    const ErrorBound& p = choice.promise;
     EXPECT_TRUE(!p.kept) << choice.reason << ": no step there is resolves it";
     EXPECT_GT(p.kept_until, 0.09) << "it slides until then";
     EXPECT_LT(p.kept_until, 0.3) << "and sticks";
@@ -87,7 +86,7 @@ TEST(Promise, OfNarrowDryFrictionEndsWhereItIsNotKnown) {
 
 // The plank is as fast as the roller 19 us before 0.059 s, and neither of the two methods that are
 // the reference has a node so late in its step.
-TEST(Promise, IsNotMadeAcrossACornerThatOnlyTheNextStepSees) {
+TEST(ErrorBound, IsNotMadeAcrossACornerThatOnlyTheNextStepSees) {
   const BuiltScene built = build(sceneOf(
       "{step: 0.001, systems: {p: {model: friction_oscillator, tolerance: 1.0e-8, horizon: 0.059, "
       "parameters: {mass: 1, friction_coefficient: 0.47376499481537815, half_spacing: 0.0762, "
@@ -105,9 +104,9 @@ TEST(Promise, IsNotMadeAcrossACornerThatOnlyTheNextStepSees) {
   EXPECT_LE(ErrorCurve(reference.trajectory, truth.trajectory).position(last), 1.0e-9);
 }
 
-// Here it sticks 31 us after 0.086 s, where a judge that takes the step across sees the even and
-// the odd of its nodes each go a smooth way.
-TEST(Promise, IsKeptWhereAPlankSticksEarlyInAStep) {
+// Here it sticks 31 us after 0.086 s; in a reference step across this instant the even and the odd
+// nodes follow two different smooth curves.
+TEST(ErrorBound, IsKeptWhereAPlankSticksEarlyInAStep) {
   const Scene one = sceneOf(
       "{step: 0.001, systems: {p: {model: friction_oscillator, tolerance: 1.0e-6, horizon: 0.088, "
       "parameters: {mass: 1, friction_coefficient: 0.46405828272795668, half_spacing: 0.0762, "
@@ -122,9 +121,10 @@ TEST(Promise, IsKeptWhereAPlankSticksEarlyInAStep) {
   EXPECT_LE(error.position(87), 1.0e-6) << choice.reason;
 }
 
-// Two judges that round their forces to doubles may part from the motion alike, and would call the
-// promise broken: of point masses they count in 64 bits however the scene writes them down.
-TEST(Promise, OfChaosIsKeptAsLongAsItSays) {
+// Two references that round their forces to doubles may diverge from the motion alike, and would
+// report a violated bound: for point masses they use 64-bit significands in every form of the
+// scene.
+TEST(ErrorBound, OfChaosIsKeptAsLongAsItSays) {
   Scene one = sceneOf(
       "{step: 0.567410386, systems: {p: {model: double_pendulum, tolerance: 1.0e-6, horizon: 60, "
       "parameters: {mass1: 1, mass2: 0.52718821580643216, length1: 1, length2: 2.7049801047934161, "
@@ -151,8 +151,9 @@ Trajectory even() {
   return t;
 }
 
-// A disturbance that has grown out of sight says nothing of what rounding does from then on.
-TEST(Promise, IsNotMadeBeyondWhereADisturbedMotionParted) {
+// A disturbance that has grown beyond measure gives no information on the effect of rounding after
+// that.
+TEST(ErrorBound, IsNotMadeBeyondWhereADisturbedMotionParted) {
   const Trajectory right = even();
   Trajectory parted = right;
   parted.keep(2);
@@ -165,8 +166,9 @@ TEST(Promise, IsNotMadeBeyondWhereADisturbedMotionParted) {
   EXPECT_TRUE(std::isinf(reference.rateError(2)));
 }
 
-// What holds a disturbance, the slew of an actuator say, does not hold rounding to a part of it.
-TEST(Promise, HasNoPartOfADisturbanceWhereRoundingBecomesAsLarge) {
+// A limit on the growth of a disturbance, such as an actuator's slew rate, does not limit rounding
+// errors in proportion.
+TEST(ErrorBound, HasNoPartOfADisturbanceWhereRoundingBecomesAsLarge) {
   const Trajectory right = even();
   const auto off = [&](double first, double then) {
     Trajectory t = right;
@@ -184,12 +186,12 @@ TEST(Promise, HasNoPartOfADisturbanceWhereRoundingBecomesAsLarge) {
   EXPECT_GE(reference.rateError(2), 4.0e-5);
 }
 
-// Their errors grow e-fold 2.4 times a second, whatever was asked of them.
-TEST(Promise, OfChaosDoesNotDependOnTheHorizon) {
+// Their errors grow by e 2.4 times a second, whatever the tolerance.
+TEST(ErrorBound, OfChaosDoesNotDependOnTheHorizon) {
   const auto promised = [](const std::string& tolerance, const std::string& horizon) {
     Scene one = pendulum("0.001", ", tolerance: " + tolerance + ", horizon: " + horizon);
     one.systems.front().q = {2.0, 2.5};
-    const Promise p = chooseStep(one).promise;
+    const ErrorBound p = chooseStep(one).promise;
     EXPECT_FALSE(p.kept) << tolerance << ", " << horizon;
     EXPECT_LT(p.known_until, 25.0) << tolerance << ", " << horizon;
     return p.kept_until;
@@ -199,7 +201,7 @@ TEST(Promise, OfChaosDoesNotDependOnTheHorizon) {
   EXPECT_GT(promised("1.0e-2", "60"), short_sighted);
 }
 
-TEST(Promise, IsNotMadeOfMotionsThatNoStepResolves) {
+TEST(ErrorBound, IsNotMadeOfMotionsThatNoStepResolves) {
   const StepChoice fast = chooseStep(
       sceneOf("{step: 0.001, systems: {p: {model: spinning_pendulum, parameters: {mass: 1, length: "
               "0.2, speed: 1.0e5}, initial: {theta: 0.5}}}}"));
@@ -212,7 +214,7 @@ TEST(Promise, IsNotMadeOfMotionsThatNoStepResolves) {
   EXPECT_LT(lopsided.promise.kept_until, 1.0) << lopsided.reason;
 }
 
-TEST(Promise, OfAMethodThatTheSceneNamesIsItsOwnError) {
+TEST(ErrorBound, OfAMethodThatTheSceneNamesIsItsOwnError) {
   const Scene rough = pendulum("0.01", ", integrator: velocity_verlet, horizon: 3");
   const StepChoice named = judgeStep(rough);
   EXPECT_EQ(named.integrator, "velocity_verlet");
@@ -224,7 +226,7 @@ TEST(Promise, OfAMethodThatTheSceneNamesIsItsOwnError) {
   EXPECT_GT(named.promise.rate_error, 0.1 * error);
 }
 
-TEST(Promise, OfExactStepsHoldsOverAMonth) {
+TEST(ErrorBound, OfExactStepsHoldsOverAMonth) {
   const StepChoice month = chooseStep(
       sceneOf("{step: 0.001, systems: {r: {model: jeffcott_rotor, horizon: 2.6e6, parameters: "
               "{mass: 1, stiffness: 1.0e4, damping: 10, speed: 50, eccentricity: 1.0e-4}}}}"));

@@ -1,5 +1,5 @@
-// A model may take long to be set up: from the scene's text to the first step it is set up once,
-// whoever looks at it on the way, and once more for each change of its parameters.
+// The set-up of a model may be expensive: from the scene's text to the first step it is done once,
+// with any number of readers, and once again for each change of its parameters.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -22,7 +22,7 @@ ModelInfo counted(const std::string& model) {
   info.name = "counted_" + model;
   info.setUp = [name = info.name, plain = info.setUp](const ParameterValues& values,
                                                       const Settings& settings,
-                                                      const Surroundings& around) {
+                                                      const ModelContext& around) {
     ++set_up[name];
     return plain(values, settings, around);
   };
@@ -104,7 +104,7 @@ systems:
   EXPECT_EQ(rotors(), 1 + 5);
 }
 
-// What was changed after reading is what is built.
+// A change after reading is included in the built system.
 TEST_F(SetUpOnce, AndAnewWhereTheSpecWasChanged) {
   Scene scene = sceneOf(kCounted);
   scene.systems[0].integrator = "runge_kutta_4";

@@ -1,5 +1,5 @@
-// What `auto` chooses keeps the tolerance it was chosen for, on every shipped scene; it is the same
-// choice every time; and what cannot be kept is said.
+// The choice of `auto` meets the tolerance on every shipped scene; it is reproducible; and a
+// tolerance that cannot be met is reported.
 #include "accuracy/step_choice.h"
 
 #include <gtest/gtest.h>
@@ -20,29 +20,29 @@
 namespace whirl_twin {
 namespace step_choice_test {
 
-struct Promised {
+struct Bounded {
   std::string scene;
   std::size_t system;
   double tolerance;
 };
 
-void PrintTo(const Promised& p, std::ostream* out) {
+void PrintTo(const Bounded& p, std::ostream* out) {
   *out << p.scene << ", system " << p.system << ", " << p.tolerance;
 }
 
-std::vector<Promised> everyPromise() {
-  std::vector<Promised> promises;
+std::vector<Bounded> everyPromise() {
+  std::vector<Bounded> promises;
   for (const auto& file :
        std::filesystem::directory_iterator(std::string(WHIRL_TWIN_SOURCE) + "/config/scenes")) {
     const Scene scene = readSceneFile(file.path());
     if (!scene.controllers.empty()) {
-      continue;  // the independent motion has none
+      continue;  // not covered by the independent motion
     }
     for (std::size_t i = 0; i < scene.systems.size(); ++i) {
-      // Of more the independent motion takes many minutes; smaller rotors of the same engine are
-      // judged.
-      constexpr std::size_t kMostCoordinates = 30;
-      if (scene.systems[i].q.size() > kMostCoordinates) {
+      // Above this the independent motion takes many minutes; smaller rotors of the same model are
+      // checked.
+      constexpr std::size_t kMaxCoordinates = 30;
+      if (scene.systems[i].q.size() > kMaxCoordinates) {
         continue;
       }
       for (const double tolerance : {1.0e-3, 1.0e-6, 1.0e-9}) {
@@ -53,10 +53,10 @@ std::vector<Promised> everyPromise() {
   return promises;
 }
 
-class StepChoicePromise : public testing::TestWithParam<Promised> {};
+class StepChoicePromise : public testing::TestWithParam<Bounded> {};
 
 TEST_P(StepChoicePromise, IsKept) {
-  const Promised& promise = GetParam();
+  const Bounded& promise = GetParam();
   const Scene scene =
       readSceneFile(std::string(WHIRL_TWIN_SOURCE) + "/config/scenes/" + promise.scene + ".yaml");
   Scene one = sceneOfOne(scene, promise.system);
@@ -64,9 +64,9 @@ TEST_P(StepChoicePromise, IsKept) {
   spec.tolerance = promise.tolerance;
   spec.horizon = 2.0;  // s, for the test's own sake
   const StepChoice choice = chooseStep(one);
-  const Promise& p = choice.promise;
-  // Many a rotor that rubs, creeps by hysteresis or bounces off its stator cannot be followed for
-  // long: there the choice says how far it goes, and is held to that.
+  const ErrorBound& p = choice.promise;
+  // Many rotors with rubbing, hysteretic creep or stator impacts cannot be predicted for long:
+  // there the choice states its horizon, and is tested up to it.
   const std::int64_t interval = std::max<std::int64_t>(1, 20'000'000 / one.step) * one.step;
   const auto samples = 1 + static_cast<std::size_t>(1.0e9 * p.known_until / interval + 1.0e-6);
   const auto kept = static_cast<std::size_t>(1.0e9 * p.kept_until / interval + 1.0e-6);
@@ -74,14 +74,13 @@ TEST_P(StepChoicePromise, IsKept) {
   const ErrorCurve error(
       motion(withSetting(one, {choice.integrator, one.step, choice.substeps}), interval, samples),
       truth.trajectory);
-  std::size_t judged = truth.own.samples() - 1;  // as far as the judge itself can be trusted
+  std::size_t judged = truth.own.samples() - 1;  // as far as the reference is accurate
   while (judged > 0 &&
          truth.own.position(judged) > 0.1 * std::max(promise.tolerance, error.position(judged))) {
     --judged;
   }
-  // A stiff rotor from rest: all that this judge can be trusted with is how it begins, where the
-  // motion is nothing yet beside what errors are told in parts of. There its own error is allowed
-  // for.
+  // A stiff rotor from rest: this reference is accurate only at the start, where the motion is
+  // still small relative to the scale of the errors. There its own error is added to the tolerance.
   double unsure = 0.0;
   const std::size_t last = truth.own.samples() - 1;
   if (judged < last / 20 && truth.own.position(last) < promise.tolerance) {
@@ -96,7 +95,7 @@ TEST_P(StepChoicePromise, IsKept) {
 
 INSTANTIATE_TEST_SUITE_P(ShippedScenes, StepChoicePromise, testing::ValuesIn(everyPromise()),
                          [](const auto& test) {
-                           const Promised& p = test.param;
+                           const Bounded& p = test.param;
                            return p.scene + "_" + std::to_string(p.system) + "_1e" +
                                   std::to_string(static_cast<int>(-std::log10(p.tolerance)));
                          });
@@ -158,7 +157,7 @@ systems:
   EXPECT_NE(choice.integrator, "semi_implicit_euler");
 }
 
-// The cart begins at 0, and what a small disturbance does to it is not told in parts of nothing.
+// The cart starts at 0: the effect of a small disturbance must not be scaled by zero.
 TEST(StepChoice, PromisesAMotionOfWhatBeginsAtRest) {
   for (const char* start : {"initial: {theta: 0.2}", "inputs: {force: 3.0}",
                             "inputs: {force: {times: [0, 1], values: [0, 3], hold: true}}"}) {
@@ -175,7 +174,7 @@ bool hasPast(const StepChoice& choice) {
   return stepMethod(choice.integrator).past > 0;
 }
 
-// A method with a past at a millisecond, thousands of steps and a hundredth of its limit.
+// A multistep method at a millisecond, thousands of steps and a hundredth of its limit.
 TEST(StepChoice, TakesAMethodWithAPastWhereItIsProven) {
   const StepChoice choice = chooseStep(swing("1.0e-6", "0.3", "3.0"));
   EXPECT_TRUE(hasPast(choice)) << choice.reason;
@@ -203,7 +202,7 @@ TEST(StepChoice, TakesNoMethodWithAPastThatHasNotShownMoreThanItsStart) {
   EXPECT_FALSE(hasPast(chooseStep(swing("1.0e-6", "0.3", "0.1"))));
 }
 
-// A pendulum creeps away from where it stands upright, longer than is looked at, and falls.
+// A pendulum departs slowly from its upright position, for longer than the trial run, and falls.
 TEST(StepChoice, TakesNoMethodWithAPastForAMotionThatIsYetToQuicken) {
   const StepChoice choice = chooseStep(sceneOf(R"(
 gravity: 1.0

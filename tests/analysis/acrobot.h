@@ -1,5 +1,5 @@
-// A double pendulum with a motor at its elbow, upright, and no friction: small motions in the angle
-// of the upper arm from the vertical and that of the lower from the upper. Numbers: DFKI RIC
+// A double pendulum with a motor at its elbow, upright, without friction, linearized: the angle of
+// the upper arm from the vertical and that of the lower arm from the upper. Numbers: DFKI RIC
 // Underactuated Robotics Lab, double_pendulum, design C.0, model 3.1; inertias about the joints.
 #pragma once
 

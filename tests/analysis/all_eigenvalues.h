@@ -1,5 +1,5 @@
-// All eigenvalues of a linearized system by the dense solution in extended precision: what faster
-// methods are held against.
+// All eigenvalues of a linearized system by the dense solution in extended precision: the reference
+// for faster methods.
 #pragma once
 
 #include <complex>

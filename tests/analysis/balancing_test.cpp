@@ -1,4 +1,4 @@
-// Two-plane balancing from three simulated runs finds the unbalance that was put in.
+// Two-plane balancing from three simulated runs recovers the simulated unbalance.
 #include "analysis/balancing.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "analysis/synchronous_response.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "rotors_under_test.h"
 
 namespace whirl_twin {
@@ -59,7 +59,7 @@ TEST(Balancing, FindsTheUnbalanceFromThreeRuns) {
   EXPECT_LT(correction.rms, 1.0e-9 * runs.initial.norm());
 }
 
-// With one plane for two unbalances a residual is left, and it is the one predicted.
+// With one plane for two unbalances a residual remains, equal to the predicted one.
 TEST(Balancing, PredictsTheResidual) {
   const Runs runs = simulatedRuns();
   const auto influence = influenceOfPlanes(runs.initial, {runs.trials[0]}, 1);
@@ -83,9 +83,9 @@ TEST(Balancing, HonoursTheWeights) {
   EXPECT_LT(std::abs(weighted.residual[2]), 1.0e-2 * std::abs(even.residual[2]));
 }
 
-// Four readings for two planes, each run with errors of its own: in 1000 jobs 93 to 97 % of the
-// intervals hold the component that is true, by the residual and by the stated error alike, with
-// even and uneven weights.
+// Four readings for two planes, each run with independent errors: in 1000 jobs 93 to 97 % of the
+// intervals contain the true component, with errors from the residual and from the stated error
+// alike, with equal and unequal weights.
 TEST(Balancing, IntervalsHoldTheTruthIn95Of100) {
   const Runs exact = simulatedRuns();
   const double error = 0.002 * exact.initial.norm();
@@ -103,7 +103,7 @@ TEST(Balancing, IntervalsHoldTheTruthIn95Of100) {
     const Eigen::VectorXd weights = even ? Eigen::VectorXd(Eigen::VectorXd::Ones(4)) : uneven;
     for (const double stated : {0.0, error}) {
       if (stated == 0.0 && !even) {
-        continue;  // by the residual alone, weights stand for the size of errors
+        continue;  // errors from the residual alone: weights act as relative error sizes
       }
       int held = 0, all = 0;
       for (int job = 0; job < 1000; ++job) {
@@ -140,11 +140,11 @@ TEST(Balancing, WithoutSpareReadingsNothingIsKnownOfErrors) {
 
 TEST(Balancing, RefusesWhatDoesNotFit) {
   const Runs runs = simulatedRuns();
-  EXPECT_THROW(influenceOfPlanes(runs.initial, {runs.trials[0]}, 2), Refusal);
-  EXPECT_THROW(influenceOfPlanes(runs.initial, {{0, 0.0, runs.initial}}, 1), Refusal);
-  EXPECT_THROW(influenceOfPlanes(runs.initial, {{0, 1.0, runs.initial.head(2)}}, 1), Refusal);
+  EXPECT_THROW(influenceOfPlanes(runs.initial, {runs.trials[0]}, 2), InputError);
+  EXPECT_THROW(influenceOfPlanes(runs.initial, {{0, 0.0, runs.initial}}, 1), InputError);
+  EXPECT_THROW(influenceOfPlanes(runs.initial, {{0, 1.0, runs.initial.head(2)}}, 1), InputError);
   EXPECT_THROW(balance(Eigen::MatrixXcd::Identity(4, 2), runs.initial, Eigen::VectorXd::Ones(3)),
-               Refusal);
+               InputError);
 }
 
 }  // namespace balancing_test

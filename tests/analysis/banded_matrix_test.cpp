@@ -15,7 +15,7 @@ namespace banded_matrix_test {
 
 using Complex = std::complex<double>;
 
-/// Entries of no pattern; the small diagonal asks for pivots.
+/// Entries without a pattern; the small diagonal requires pivoting.
 template <class Scalar>
 Eigen::Matrix<Scalar, -1, -1> chain(Eigen::Index size, Eigen::Index width, Scalar turn) {
   Eigen::Matrix<Scalar, -1, -1> a = Eigen::Matrix<Scalar, -1, -1>::Zero(size, size);

@@ -9,7 +9,7 @@
 
 #include "algebra/dense.h"
 #include "analysis/natural_modes.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace cantilever_modes_test {
@@ -172,15 +172,15 @@ TEST(CantileverModes, TheBasisIsWellConditioned) {
 }
 
 TEST(CantileverModes, RefuseWhatIsNoBeam) {
-  EXPECT_THROW(cantileverModes(0.0, 1.0, 1.0, 2), Refusal);
-  EXPECT_THROW(cantileverModes(1.0, -1.0, 1.0, 2), Refusal);
-  EXPECT_THROW(cantileverModes(1.0, 1.0, NAN, 2), Refusal);
-  EXPECT_THROW(cantileverModes(1.0, 1.0, 1.0, 0), Refusal);
-  EXPECT_THROW(cantileverModes(1.0, 1.0, 1.0, 41), Refusal);
+  EXPECT_THROW(cantileverModes(0.0, 1.0, 1.0, 2), InputError);
+  EXPECT_THROW(cantileverModes(1.0, -1.0, 1.0, 2), InputError);
+  EXPECT_THROW(cantileverModes(1.0, 1.0, NAN, 2), InputError);
+  EXPECT_THROW(cantileverModes(1.0, 1.0, 1.0, 0), InputError);
+  EXPECT_THROW(cantileverModes(1.0, 1.0, 1.0, 41), InputError);
   const CantileverModes beam = cantileverModes(1.0, 1.0, 1.0, 2);
-  EXPECT_THROW(beam.shapes(1.0001), Refusal);
-  EXPECT_THROW(beam.shapes(NAN), Refusal);
-  EXPECT_THROW(beam.monomials(VectorXd::Ones(3)), Refusal);
+  EXPECT_THROW(beam.shapes(1.0001), InputError);
+  EXPECT_THROW(beam.shapes(NAN), InputError);
+  EXPECT_THROW(beam.monomials(VectorXd::Ones(3)), InputError);
 }
 
 }  // namespace cantilever_modes_test

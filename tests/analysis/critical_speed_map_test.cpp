@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "analysis/undamped_critical_speeds.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace critical_speed_map_test {
@@ -85,7 +85,7 @@ TEST(CriticalSpeedMap, HasTheForwardOnesOfAllUndampedCriticalSpeeds) {
 }
 
 TEST(CriticalSpeedMap, OfOneBearingIsRefused) {
-  EXPECT_THROW(criticalSpeedMap(plainShaft(), {3, 3}, 1.0, 10.0, 2, 3), Refusal);
+  EXPECT_THROW(criticalSpeedMap(plainShaft(), {3, 3}, 1.0, 10.0, 2, 3), InputError);
 }
 
 }  // namespace critical_speed_map_test

@@ -167,7 +167,7 @@ TEST(SimultaneousMargins, AreWhereTheLoopWithAllDelayedLosesItsStability) {
 }
 
 TEST(SimultaneousMargins, OfOneOutputAreThoseAtTheInputOfThePlant) {
-  // A free mass, both of whose states are measured.
+  // A free mass with both states measured.
   LoopPlant plant{MatrixXd::Zero(2, 2), MatrixXd::Zero(2, 1), MatrixXd::Identity(2, 2)};
   plant.a(0, 1) = plant.b(1, 0) = 1.0;
   const LoopController controller =

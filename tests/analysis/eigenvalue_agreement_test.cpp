@@ -1,6 +1,5 @@
-// The eigenvalues of every rotor that a shipped scene has, whole and as it is stepped, and of
-// random shafts, beside the dense solution in extended precision: to 1e-9 of their moduli, at rest
-// and as they run.
+// The eigenvalues of every rotor of a shipped scene, full-order and reduced, and of random shafts,
+// against the dense solution in extended precision: to 1e-9 of their moduli, at rest and at speed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +13,7 @@
 #include "analysis/equilibria.h"
 #include "analysis/lowest_eigenvalues.h"
 #include "analysis/stability.h"
-#include "mechanics/rotors/unreduced_rotor.h"
+#include "mechanics/rotors/full_order_rotor.h"
 #include "random_shafts.h"
 #include "scene/built_scene.h"
 #include "scene/held_rotor.h"
@@ -24,7 +23,7 @@ namespace whirl_twin {
 namespace eigenvalue_agreement_test {
 
 constexpr double kAgrees = 1.0e-9;
-constexpr double kUsualSpeed = 100.0;  // [rad/s], of a rotor whose scene tells none
+constexpr double kUsualSpeed = 100.0;  // [rad/s], of a rotor whose scene gives none
 
 std::vector<std::string> shippedScenes() {
   std::vector<std::string> names;
@@ -37,7 +36,7 @@ std::vector<std::string> shippedScenes() {
   return names;
 }
 
-/// What `twin analyze` tells, with all modes up to a hundred coordinates.
+/// The eigenvalues that `twin analyze` reports, with all modes up to a hundred coordinates.
 void expectAgreement(const Linearization& l, const std::string& which) {
   if (rigidBodyMotions(l).any()) {
     return;  // its zeros are set aside (free_rotors_test.cpp)
@@ -83,8 +82,8 @@ TEST_P(ShippedRotors, HaveTheEigenvaluesOfTheDenseSolution) {
   }
 }
 
-// Bearings all but rigid beside soft ones, and shafts that damp themselves, leave the dense
-// solution in doubles with seven digits of their lowest whirls.
+// Nearly rigid bearings together with soft ones, and shafts with material damping, leave seven
+// correct digits of the lowest whirls in the dense solution in doubles.
 TEST(RandomShafts, HaveTheEigenvaluesOfTheDenseSolution) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const RandomShaft drawn = randomShaft(seed, 3 + static_cast<int>(seed % 8));

@@ -4,7 +4,7 @@
 
 #include <cfloat>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace exact_number_test {
@@ -24,7 +24,7 @@ TEST(ParseRational, RefusesWhatIsNotAFiniteDecimalNumber) {
   for (const char* text :
        {"", "+", ".", "e5", "1e", "1e+", "nan", "inf", "-inf", "0x10", "1,5", " 1", "1 ", "1e5001",
         "1e-5001", "1e99999999999999999999", "1e1.5", "--1", "2i"}) {
-    EXPECT_THROW(parseRational(text), Refusal) << '"' << text << '"';
+    EXPECT_THROW(parseRational(text), InputError) << '"' << text << '"';
   }
 }
 
@@ -32,7 +32,7 @@ TEST(ParseRational, SaysWhatItExpectedAndFound) {
   try {
     parseRational("12rpm");
     FAIL() << "accepted 12rpm";
-  } catch (const Refusal& error) {
+  } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "expected a finite decimal number, found \"12rpm\"");
   }
 }
@@ -58,7 +58,7 @@ TEST(ParseComplex, ReadsRealImaginaryAndBoth) {
 TEST(ParseComplex, RefusesTheRest) {
   for (const char* text : {"", "3+", "3+2", "3+2k", "3+2ii", "1i+2i", "inf+2i", "nani", "3 + 2i",
                            "1e-i", "3+2i5", "++i"}) {
-    EXPECT_THROW(parseComplex(text), Refusal) << '"' << text << '"';
+    EXPECT_THROW(parseComplex(text), InputError) << '"' << text << '"';
   }
 }
 

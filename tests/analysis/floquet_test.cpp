@@ -1,7 +1,7 @@
-// Verdicts on motions with periodic coefficients. References: a transition matrix by Runge-Kutta's
-// method of order 4 in long double, written here (Mathieu's chart, a shaft that is not round on
-// unequal supports), closed forms (multipliers of constant coefficients, Smith's limits), and
-// published thresholds of the shaken pendulum.
+// Stability of motions with periodic coefficients. References: a transition matrix by Runge-Kutta's
+// method of order 4 in long double, written here (Mathieu's chart, an anisotropic shaft on unequal
+// supports), closed forms (multipliers of constant coefficients, Smith's limits), and published
+// thresholds of the pendulum with an oscillating pivot.
 
 #include "analysis/floquet.h"
 
@@ -111,7 +111,8 @@ TEST(Floquet, AHangingPendulumShakenAtTwiceItsFrequencyGrows) {
   EXPECT_NEAR(std::fabs(point->stability.eigenvalues.front().imag()), 0.5 * 8.857494, 1.0e-9);
 }
 
-// The exact threshold of the upright pendulum, above that of its mean motion, 46.6825 rad/s.
+// The exact stability threshold of the upright pendulum, above that of its mean motion, 46.6825
+// rad/s.
 TEST(Floquet, UprightItStandsFromTheExactThresholdOn) {
   double low = 46.0;
   double high = 49.0;
@@ -127,7 +128,7 @@ TEST(Floquet, UprightItStandsFromTheExactThresholdOn) {
   EXPECT_NEAR(above.decay_rate, 0.5 * 1.0e-6 / (0.1 * 0.1 * 0.1), 1.0e-8);
 }
 
-// Shaken too wide it falls again.
+// With a too large amplitude of the pivot it falls again.
 TEST(Floquet, UprightItFallsWhereItIsShakenTooWide) {
   double low = 0.4;
   double high = 0.5;
@@ -213,22 +214,24 @@ struct UnroundShaft {
   double damping = 0.0;      // N s/m
 
   template <class S>
-  S kinetic(const std::array<S, 2>&, const std::array<S, 2>& v, const Moment<S>&) const {
+  S kinetic(const std::array<S, 2>&, const std::array<S, 2>& v, const EvaluationPoint<S>&) const {
     return 0.5 * (v[0] * v[0] + v[1] * v[1]);
   }
   template <class S>
-  S potential(const std::array<S, 2>& q, const Moment<S>& at) const {
+  S potential(const std::array<S, 2>& q, const EvaluationPoint<S>& at) const {
     const S along = q[0] * cos(at.angle) + q[1] * sin(at.angle);
     const S across = q[1] * cos(at.angle) - q[0] * sin(at.angle);
     return (0.5 * stiffness) * ((1.0 + unequal) * (q[0] * q[0]) + (1.0 - unequal) * (q[1] * q[1]) +
                                 unround * (along * along - across * across));
   }
   template <class S>
-  S dissipation(const std::array<S, 2>&, const std::array<S, 2>& v, const Moment<S>&) const {
+  S dissipation(const std::array<S, 2>&, const std::array<S, 2>& v,
+                const EvaluationPoint<S>&) const {
     return (0.5 * damping) * (v[0] * v[0] + v[1] * v[1]);
   }
   template <class S>
-  std::array<S, 2> force(const std::array<S, 2>&, const std::array<S, 2>&, const Moment<S>&) const {
+  std::array<S, 2> force(const std::array<S, 2>&, const std::array<S, 2>&,
+                         const EvaluationPoint<S>&) const {
     return {};
   }
 };
@@ -290,7 +293,7 @@ TEST(Floquet, OnUnequalSupportsItIsJudgedAsByAnIndependentIntegrator) {
   EXPECT_GT(unstable, 10);
 }
 
-// Two loads without a common period: what is judged is the mean motion, and it says so.
+// Two loads without a common period: the mean motion is evaluated, and the result states so.
 TEST(Floquet, LoadsWithoutACommonPeriodHaveNone) {
   const auto cart = [](double of_force) {
     return dynamicsOf("cart_pendulum",

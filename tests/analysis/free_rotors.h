@@ -24,7 +24,7 @@ inline LinearRotor freeRotor(const FlexibleShaft& shaft) {
   return RotorAssembly(shaft).linearRotor();
 }
 
-/// In those of a few shapes.
+/// In modal coordinates of a few modes.
 inline LinearRotor reducedFreeRotor(const FlexibleShaft& shaft) {
   const RotorAssembly full(shaft);
   const LinearRotor rotor = full.linearRotor();

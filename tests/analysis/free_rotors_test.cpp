@@ -1,5 +1,5 @@
-// Stability of what floats: with M > 0, K >= 0, skew G and no damping nothing can grow, and what
-// rounding makes of the zero eigenvalues of rigid-body motion must not say otherwise.
+// Stability of free-free systems: with M > 0, K >= 0, skew G and no damping nothing can grow, and
+// rounding of the zero eigenvalues of rigid-body motion must not change that verdict.
 #include "free_rotors.h"
 
 #include <gtest/gtest.h>
@@ -147,7 +147,7 @@ TEST(FreeSystems, GyroscopicForcesHoldOrDoNot) {
   }
 }
 
-// Negative stiffness is not rounding, however small beside the others.
+// Negative stiffness is not rounding, however small relative to the others.
 TEST(FreeSystems, ASoftSpringThatPushesIsUnstable) {
   for (const int n : {2, 12}) {
     Linearization l;

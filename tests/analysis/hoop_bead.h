@@ -1,13 +1,13 @@
-// Bead on a hoop that a shaft turns about a vertical axis beside its centre, written as
-// docs/own_systems.md says: in a namespace of its own, functions without std::.
+// Bead on a hoop that a shaft rotates about a vertical axis beside its centre, written as in
+// docs/own_systems.md: in a separate namespace, functions without std::.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 
 namespace hoop {
 
@@ -24,23 +24,25 @@ struct HoopBead {
   double mass = 0.0, radius = 0.0, offset = 0.0, damping = 0.0, gravity = 0.0;
 
   template <class S>
-  S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v, const Moment<S>& at) const {
+  S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
+            const EvaluationPoint<S>& at) const {
     const S out = offset + radius * sin(q[0]);
     const S across = at.speed * out;
     const S along = radius * v[0];
     return (0.5 * mass) * (along * along + across * across);
   }
   template <class S>
-  S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     return (-mass * gravity * radius) * cos(q[0]);
   }
   template <class S>
-  S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v, const Moment<S>&) const {
+  S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
+                const EvaluationPoint<S>&) const {
     return (0.5 * damping) * (v[0] * v[0]);
   }
   template <class S>
   std::array<S, kDof> force(const std::array<S, kDof>&, const std::array<S, kDof>&,
-                            const Moment<S>&) const {
+                            const EvaluationPoint<S>&) const {
     return {};
   }
 };

@@ -1,4 +1,4 @@
-// Hurwitz determinants, as a second opinion on Routh's table.
+// Hurwitz determinants, as an independent check of Routh's table.
 #pragma once
 
 #include <algorithm>

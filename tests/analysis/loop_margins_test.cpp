@@ -6,7 +6,7 @@
 
 #include "analysis/sampled_margins.h"
 #include "loops_under_test.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace loop_margins_test {
@@ -54,7 +54,7 @@ TEST(LoopMargins, AreThoseOfTheLevitatedMass) {
     EXPECT_NEAR(bare.phase_crossover, k.crossover, 6e-8);
     EXPECT_NEAR(bare.gain_reduction, 1.0 / k.kp, 1e-15);
     EXPECT_EQ(bare.gain_margin, std::numeric_limits<double>::infinity());
-    // A delay that is taken from the margin is missing there.
+    // An added delay reduces the delay margin by the same amount.
     EXPECT_NEAR(loopMargins(levitated(k.kp, k.d, 0.2)).delay_margin, k.delay_margin - 0.2, 1e-10);
   }
 }
@@ -179,8 +179,8 @@ TEST(SampledMargins, AreWhereTheLoopLosesItsStability) {
   EXPECT_EQ(verdict(late), Verdict::kUnstable);
 }
 
-/// Beside the mass a flexible mode far up that hardly dies out, which the controller drives a
-/// little.
+/// In addition to the mass a weakly damped flexible mode of high frequency, which the controller
+/// excites a little.
 LoopPlant withFlexibleMode(double driven) {
   LoopPlant plant{Eigen::MatrixXd::Zero(4, 4), Eigen::MatrixXd::Zero(4, 1),
                   Eigen::MatrixXd::Zero(1, 4)};
@@ -211,7 +211,7 @@ TEST(SampledMargins, NoLightlyDampedPeakIsMissed) {
       sampledMargins(plant, {controller}, 0, Verdict::kAsymptoticallyStable).front();
   EXPECT_GT(m.sensitivity_peak, 20.0);
   EXPECT_NEAR(m.peak_frequency, 17.0, 1e-5);
-  // Nothing is higher where one looks as closely as the peak is narrow.
+  // With a frequency resolution finer than the width of the peak no value is higher.
   const LoopResponse response = sampledResponses(plant, {controller}, 0).front();
   for (int i = -10000; i <= 10000; ++i) {
     const double w = m.peak_frequency + 1e-10 * i;

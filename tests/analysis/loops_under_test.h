@@ -1,4 +1,4 @@
-// Loops that the tests of sampled loops share.
+// Loops shared by the tests of sampled loops.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ inline DiscreteStateSpace sampledPd(double kp, double kd, double period) {
   return law;
 }
 
-/// A mass that its bearing pushes away, x'' = x + u, of which x is seen.
+/// A mass with negative bearing stiffness, x'' = x + u, with x measured.
 inline LoopPlant unstableMass() {
   LoopPlant plant{Eigen::MatrixXd::Zero(2, 2), Eigen::MatrixXd::Zero(2, 1),
                   Eigen::MatrixXd::Zero(1, 2)};
@@ -39,7 +39,7 @@ inline LoopController levitation(double kp, double kd, double period, double lat
   return controller;
 }
 
-/// u = -gain x of a plant all of whose states are seen.
+/// u = -gain x for a plant with all states measured.
 inline LoopController stateFeedback(const Eigen::MatrixXd& gain, double rate, double delay) {
   LoopController controller;
   controller.name = "state_feedback";

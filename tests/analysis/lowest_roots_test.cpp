@@ -1,5 +1,4 @@
-// The lowest eigenvalues of long rotors beside all of them, by the dense solution in extended
-// precision.
+// The lowest eigenvalues of long rotors against the complete dense solution in extended precision.
 #include "analysis/lowest_roots.h"
 
 #include <gtest/gtest.h>
@@ -8,8 +7,8 @@
 #include <cmath>
 
 #include "all_eigenvalues.h"
-#include "analysis/growth_radius.h"
 #include "analysis/lowest_eigenvalues.h"
+#include "analysis/unstable_root_bound.h"
 #include "random_shafts.h"
 
 namespace whirl_twin {
@@ -28,7 +27,7 @@ TEST(LowestRoots, AreThoseOfTheDenseSolutionAndNoneThatGrowsIsAmongTheOmitted) {
     const auto roots = lowestRoots(pencilOf(l), 12);
     ASSERT_TRUE(roots) << "seed " << seed;
     std::vector<Complex> values;
-    for (const PencilRoot& root : roots->roots) {
+    for (const RefinedEigenpair& root : roots->roots) {
       values.push_back(root.value);
     }
     EXPECT_GE(values.size(), 12u);
@@ -46,7 +45,7 @@ TEST(LowestRoots, AreThoseOfTheDenseSolutionAndNoneThatGrowsIsAmongTheOmitted) {
     const auto truly = std::count_if(all.begin(), all.end(), grows);
     const auto told = std::count_if(lowest->roots.begin(), lowest->roots.end(), grows);
     EXPECT_TRUE(told == truly || (told < truly && !lowest->omitted_are_sure)) << "seed " << seed;
-    if (const auto radius = growthRadius(l)) {
+    if (const auto radius = unstableRootBound(l)) {
       ++proved;
       for (const Complex& s : all) {
         EXPECT_FALSE(grows(s) && std::abs(s) > *radius) << "seed " << seed << ": " << s;
@@ -101,12 +100,12 @@ BandedLinearization disc(double damping, double circulatory) {
 }
 
 TEST(GrowthRadius, OfCrossCouplingIsItsPartOfTheDamping) {
-  EXPECT_NEAR(growthRadius(disc(3.0, 45.0)).value(), 15.0, 0.15);
-  EXPECT_GE(growthRadius(disc(3.0, 45.0)).value(), 15.0);
-  EXPECT_EQ(growthRadius(disc(3.0, 0.0)), 0.0);
-  EXPECT_EQ(growthRadius(disc(0.0, 0.0)), 0.0);
-  EXPECT_FALSE(growthRadius(disc(0.0, 45.0))) << "nothing bounds what nothing damps";
-  EXPECT_FALSE(growthRadius(disc(-3.0, 0.0)));
+  EXPECT_NEAR(unstableRootBound(disc(3.0, 45.0)).value(), 15.0, 0.15);
+  EXPECT_GE(unstableRootBound(disc(3.0, 45.0)).value(), 15.0);
+  EXPECT_EQ(unstableRootBound(disc(3.0, 0.0)), 0.0);
+  EXPECT_EQ(unstableRootBound(disc(0.0, 0.0)), 0.0);
+  EXPECT_FALSE(unstableRootBound(disc(0.0, 45.0))) << "nothing bounds what nothing damps";
+  EXPECT_FALSE(unstableRootBound(disc(-3.0, 0.0)));
 }
 
 TEST(GrowthRadius, OfRotatingDampingIsTheSpeedOfTheShaft) {
@@ -116,7 +115,7 @@ TEST(GrowthRadius, OfRotatingDampingIsTheSpeedOfTheShaft) {
     bearing.coefficients = {};
     bearing.coefficients.kxx = bearing.coefficients.kyy = 1.0e7;
   }
-  EXPECT_NEAR(growthRadius(RotorAssembly(shaft).bandedMatrices(700.0)).value(), 700.0, 8.0);
+  EXPECT_NEAR(unstableRootBound(RotorAssembly(shaft).bandedMatrices(700.0)).value(), 700.0, 8.0);
 }
 
 }  // namespace lowest_roots_test

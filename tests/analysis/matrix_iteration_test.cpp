@@ -1,4 +1,4 @@
-// Matrix iteration finds the modes that the eigenvalue solver finds, or says that it did not.
+// Matrix iteration finds the modes of the eigenvalue solver, or reports failure.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 #include "algebra/dense.h"
 #include "analysis/approximate_frequencies.h"
 #include "analysis/natural_modes.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "random_systems.h"
 
 namespace whirl_twin {
@@ -94,10 +94,10 @@ TEST(MatrixIteration, SaysThatItDidNotConverge) {
 TEST(MatrixIteration, RefusesWhatHasNoDynamicalMatrix) {
   const MatrixXd one = MatrixXd::Identity(4, 4);
   EXPECT_THROW(matrixIteration(one, freeBeamStiffness(4), 1, VectorXd::Ones(4)), RunFailure);
-  EXPECT_THROW(matrixIteration(one, one, 1, VectorXd::Zero(4)), Refusal);
-  EXPECT_THROW(matrixIteration(one, one, 0, VectorXd::Ones(4)), Refusal);
-  EXPECT_THROW(matrixIteration(one, one, 5, VectorXd::Ones(4)), Refusal);
-  EXPECT_THROW(matrixIteration(0.0 * one, one, 1, VectorXd::Ones(4)), Refusal);
+  EXPECT_THROW(matrixIteration(one, one, 1, VectorXd::Zero(4)), InputError);
+  EXPECT_THROW(matrixIteration(one, one, 0, VectorXd::Ones(4)), InputError);
+  EXPECT_THROW(matrixIteration(one, one, 5, VectorXd::Ones(4)), InputError);
+  EXPECT_THROW(matrixIteration(0.0 * one, one, 1, VectorXd::Ones(4)), InputError);
 }
 
 }  // namespace matrix_iteration_test

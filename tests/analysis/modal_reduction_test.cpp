@@ -1,5 +1,5 @@
-// Reduction of a flexible rotor to a few shapes: exact with all of them, better than modes alone,
-// and honest about its error.
+// Reduction of a flexible rotor to a few modes: exact with all of them, better than modal
+// truncation alone, and with a valid error bound.
 #include "analysis/modal_reduction.h"
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST(ModalReduction, keepsTheResponseWithinTheToleranceAskedFor) {
     EXPECT_LE(r.error.response, 1.0e-6);
     EXPECT_LT(r.shapes.cols(), 24) << damping;
     EXPECT_EQ(r.shapes.cols() % 2, 0);
-    // At speeds that the search did not look at, away from undamped resonances by 1e-2.
+    // At speeds outside the search grid, at least 1e-2 away from undamped resonances.
     const RotorAssembly reduced = full.in(r.shapes);
     for (const double w : {31.4, 111.1, 222.2, 333.3, 444.4}) {
       const Complex exact = responseX(full.linearRotor(), stations[0], w);
@@ -134,8 +134,8 @@ TEST(ModalReduction, sagsAsTheFullRotor) {
   }
 }
 
-// Both planes of a round rotor have one frequency: its coordinates are in turn of the plane of x
-// and of that of y all the same, and go the same way whatever the rounding.
+// Both planes of an isotropic rotor have the same frequencies: its coordinates must still alternate
+// between the planes of x and y, with the same signs whatever the rounding.
 TEST(ModalReduction, tellsThePlanesOfARoundRotorApart) {
   FlexibleShaft shaft = twoDiscs(0.0);
   for (auto& bearing : shaft.bearings) {

@@ -1,4 +1,4 @@
-// Models of the registry with the parameters a test cares about; the rest at their defaults.
+// Models of the registry with the parameters of a test; the others at their defaults.
 #pragma once
 
 #include <memory>

@@ -8,7 +8,7 @@
 
 #include "analysis/approximate_frequencies.h"
 #include "analysis/frequency_response.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "random_systems.h"
 
 namespace whirl_twin {
@@ -115,11 +115,11 @@ TEST(NaturalModes, SayWhyTheyAreRefused) {
   const MatrixXd massless = Eigen::Vector2d(1.0, 0.0).asDiagonal();
   MatrixXd skewed = one;
   skewed(0, 1) = 0.5;
-  EXPECT_THROW(naturalModes(massless, one), Refusal);
-  EXPECT_THROW(naturalModes(tilted, one), Refusal);
-  EXPECT_THROW(naturalModes(one, skewed), Refusal);
+  EXPECT_THROW(naturalModes(massless, one), InputError);
+  EXPECT_THROW(naturalModes(tilted, one), InputError);
+  EXPECT_THROW(naturalModes(one, skewed), InputError);
   EXPECT_THROW(naturalModes(one, MatrixXd::Identity(3, 3)), std::logic_error);
-  EXPECT_THROW(naturalModes(one, NAN * one), Refusal);
+  EXPECT_THROW(naturalModes(one, NAN * one), InputError);
   EXPECT_THROW(naturalModes(one, tilted), RunFailure);
   EXPECT_PRED2(mentions, messageOf([&] { naturalModes(massless, one); }), "zero for some motion");
   EXPECT_PRED2(mentions, messageOf([&] { naturalModes(one, tilted); }), "statically unstable");
@@ -148,7 +148,7 @@ TEST(RigidBodyModes, DoNotDependOnTheUnitsOfTheCoordinates) {
 }
 
 TEST(RigidBodyModes, AWeakSupportIsASupport) {
-  // The slightest ground springs at both ends leave no free motion.
+  // The softest ground springs at both ends exclude free motion.
   MatrixXd stiffness = freeBeamStiffness(4);
   stiffness(0, 0) += 1e-8;
   stiffness(3, 3) += 1e-8;
@@ -192,7 +192,7 @@ TEST(Bounds, DunkerleyThenExactThenRitz) {
     const VectorXd shape = randomVector(n, random);
     const double rayleigh = rayleighFrequency(s.mass, s.stiffness, shape);
     EXPECT_GE(rayleigh, exact * (1.0 - kRounding));
-    // Another shape never raises the estimate; n shapes give the exact modes.
+    // An additional shape never raises the estimate; n shapes give the exact modes.
     MatrixXd shapes = shape;
     VectorXd before = VectorXd::Constant(1, rayleigh);
     while (shapes.cols() < n) {
@@ -204,7 +204,7 @@ TEST(Bounds, DunkerleyThenExactThenRitz) {
       }
       before = p;
     }
-    // Random shapes may be nearly dependent (condition to 1e4): eight digits are left.
+    // Random shapes may be nearly dependent (condition to 1e4): eight digits remain.
     EXPECT_LT((before - naturalModes(s.mass, s.stiffness).frequencies).norm(),
               1e-8 * before.norm());
   }
@@ -223,7 +223,7 @@ TEST(Bounds, EachTermOfDunkerleyIsTheSystemWithOneMassAlone) {
   const RandomSystem s = randomSystem(4, random, true);
   const DunkerleyBound bound = dunkerleyBound(s.mass, s.stiffness);
   for (int i = 0; i < 4; ++i) {
-    // With the other masses a billion times lighter only one low mode is left.
+    // With the other masses a billion times lighter only one low mode remains.
     MatrixXd alone = 1e-9 * s.mass;
     alone(i, i) = s.mass(i, i);
     const double p = naturalModes(alone, s.stiffness).frequencies[0];
@@ -250,7 +250,7 @@ TEST(Rayleigh, ARigidBodyShapeHasNoFrequencyAndAnUnstableOneIsRefused) {
   EXPECT_NEAR(rayleighFrequency(mass, freeBeamStiffness(5), VectorXd::LinSpaced(5, 0.1, 0.7)), 0.0,
               1e-7);
   EXPECT_THROW(rayleighFrequency(mass, -mass, VectorXd::Ones(5)), RunFailure);
-  EXPECT_THROW(rayleighFrequency(mass, mass, VectorXd::Zero(5)), Refusal);
+  EXPECT_THROW(rayleighFrequency(mass, mass, VectorXd::Zero(5)), InputError);
   EXPECT_THROW(rayleighFrequency(mass, mass, VectorXd::Ones(4)), std::logic_error);
 }
 
@@ -258,10 +258,10 @@ TEST(AssumedModes, LinearlyDependentShapesAreRefused) {
   MatrixXd shapes(3, 2);
   shapes << 1.0, 2.0, 2.0, 4.0, 3.0, 6.0;
   const MatrixXd one = MatrixXd::Identity(3, 3);
-  EXPECT_THROW(ritzModes(one, one, shapes), Refusal);
+  EXPECT_THROW(ritzModes(one, one, shapes), InputError);
   EXPECT_PRED2(mentions, messageOf([&] { ritzModes(one, one, shapes); }), "linearly independent");
-  EXPECT_THROW(ritzModes(one, one, MatrixXd::Zero(3, 1)), Refusal);
-  EXPECT_THROW(ritzModes(one, one, MatrixXd::Ones(2, 1)), Refusal);
+  EXPECT_THROW(ritzModes(one, one, MatrixXd::Zero(3, 1)), InputError);
+  EXPECT_THROW(ritzModes(one, one, MatrixXd::Ones(2, 1)), InputError);
 }
 
 TEST(AssumedModes, EveryMatrixIsReduced) {
@@ -275,7 +275,7 @@ TEST(AssumedModes, EveryMatrixIsReduced) {
   const Linearization small = reduced(system, shapes);
   const VectorXd eta = randomVector(2, random);
   const VectorXd q = shapes * eta;
-  // The energy and work of a motion are the same in the shapes' amplitudes.
+  // The energy and work of a motion are the same in modal amplitudes.
   EXPECT_NEAR(eta.dot(small.mass * eta), q.dot(system.mass * q), 1e-12);
   EXPECT_NEAR(eta.dot(small.damping * eta), q.dot(system.damping * q), 1e-12);
   EXPECT_NEAR(eta.dot(small.gyroscopic * eta), q.dot(system.gyroscopic * q), 1e-12);

@@ -1,4 +1,4 @@
-// The operating point is where the motion ends when its swing is lost, not what lies nearest.
+// The operating point is the end point of the damped motion, not the nearest equilibrium.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct Hoop {
   hoop::HoopBead bead{0.1, 0.2, 0.01, 0.02, 9.81};
   double speed = 8.0;
 
-  /// What pulls the bead outwards, per m r: w^2 (e + r sin) cos - g sin.
+  /// Outward force on the bead, per m r: w^2 (e + r sin) cos - g sin.
   double pull(double angle) const {
     return speed * speed * (bead.offset + bead.radius * std::sin(angle)) * std::cos(angle) -
            bead.gravity * std::sin(angle);
@@ -58,7 +58,7 @@ TEST(OperatingPoint, IsWhereTheMotionOfTheBeadEnds) {
   for (const double start : {-0.3, 0.0, 0.4}) {
     double angle = start;
     double rate = 0.0;
-    const Moment<double> at{0.0, 0.0, h.speed, 0.0};
+    const EvaluationPoint<double> at{0.0, 0.0, h.speed, 0.0};
     for (int i = 0; i < 400'000; ++i) {  // semi-implicit Euler, 40 s
       rate += 1.0e-4 * dynamics.acceleration(one(angle), one(rate), at)[0];
       angle += 1.0e-4 * rate;

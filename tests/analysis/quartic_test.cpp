@@ -1,4 +1,4 @@
-// Quartics judged in doubles, beside the exact test and the roots they were made of.
+// Stability of quartics in double precision, against the exact test and their prescribed roots.
 #include <gtest/gtest.h>
 
 #include <algorithm>

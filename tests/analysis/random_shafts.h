@@ -1,4 +1,4 @@
-// Flexible rotors drawn at random, of the kinds that are hard on methods of linear algebra.
+// Random flexible rotors that are difficult for methods of linear algebra.
 #pragma once
 
 #include <cmath>
@@ -13,8 +13,8 @@ struct RandomShaft {
   double speed = 0.0;  ///< [rad/s]
 };
 
-/// What not all rotors have: pedestals under some bearings, chains of them; a sleeve; a cone; the
-/// masses of films.
+/// Optional elements: pedestals under some bearings, chains of them; a sleeve; a cone; the added
+/// masses of oil films.
 template <class Between>
 void addFurther(const Between& between, FlexibleShaft& shaft) {
   for (const RotorBearing& bearing : shaft.bearings) {

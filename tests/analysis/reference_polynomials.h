@@ -25,7 +25,7 @@ inline std::vector<nlohmann::json> referenceCases(const std::string& file) {
   return nlohmann::json::parse(stream).get<std::vector<nlohmann::json>>();
 }
 
-/// A name gtest accepts, and one that tells which case it is.
+/// A name that gtest accepts and that identifies the case.
 inline std::string testName(std::string text) {
   for (char& c : text) {
     if (c == '-') {

@@ -7,7 +7,7 @@
 
 #include "acrobot.h"
 #include "algebra/dense.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace riccati_test {
@@ -25,7 +25,7 @@ double radius(const MatrixXd& m) {
   return eigenvalues(m).values.cwiseAbs().maxCoeff();
 }
 
-/// Of the equation, in parts of the terms that it is a sum of.
+/// Residual of the equation, relative to its terms.
 double continuousResidual(const MatrixXd& a, const MatrixXd& b, const QuadraticCost& cost,
                           const Regulator& found) {
   const MatrixXd& x = found.cost;
@@ -81,7 +81,7 @@ TEST(Riccati, KnowsTheEquationsThatHaveAClosedForm) {
 }
 
 TEST(Riccati, ACrossTermIsAnInputThatIsCountedFromElsewhere) {
-  // x' Q x + 2 x' N u + u' R u with u = v - R^-1 N' x has none.
+  // x' Q x + 2 x' N u + u' R u with u = v - R^-1 N' x has no cross term.
   std::mt19937 generator(5);
   const MatrixXd a = random(3, 3, generator);
   const MatrixXd b = random(3, 2, generator);
@@ -160,9 +160,9 @@ TEST(Riccati, SaysWhereThereIsNoGain) {
   b << 0, 1;
   EXPECT_THROW(continuousRegulator(swinging, b, {MatrixXd::Zero(2, 2), one}),
                RunFailure);  // costs nothing
-  EXPECT_THROW(continuousRegulator(one, one, {one, none}), Refusal);
-  EXPECT_THROW(continuousRegulator(one, one, {NAN * one, one}), Refusal);
-  EXPECT_THROW(sampledRegulator(one, one, {one, one}, 0.0), Refusal);
+  EXPECT_THROW(continuousRegulator(one, one, {one, none}), InputError);
+  EXPECT_THROW(continuousRegulator(one, one, {NAN * one, one}), InputError);
+  EXPECT_THROW(sampledRegulator(one, one, {one, one}, 0.0), InputError);
   EXPECT_THROW(continuousRegulator(one, b, {one, one}), std::logic_error);
 }
 

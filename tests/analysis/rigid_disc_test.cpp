@@ -1,5 +1,5 @@
-// The rigid disc that tilts: whirl speeds and a run-up against the reference rotors, its two frames
-// against each other, and a shaft that is not round against the closed form.
+// The tilting rigid disc: whirl speeds and a run-up against the reference rotors, its two frames
+// against each other, and an anisotropic shaft against the closed form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "../integration/running_system.h"
 #include "analysis/equilibria.h"
 #include "analysis/stability.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace rigid_disc_test {
@@ -81,8 +81,8 @@ TEST(RigidDisc, RunsUpThroughItsForwardCriticalSpeedAsTheReferenceRotor) {
   const Json times = expected("C06_gyro_speed_ramp", "t");
   const Json q = expected("C06_gyro_speed_ramp", "q");
   const Json v = expected("C06_gyro_speed_ramp", "qdot");
-  // The fastest whirl turns 0.08 rad in a step, 0.016 rad for the method of order 4: after 0.5 s,
-  // when most of what is there is this transient, either leaves less than 1e-6 of it.
+  // The fastest whirl rotates by 0.08 rad in a step, 0.016 rad for the method of order 4: after 0.5
+  // s, when this transient is most of the motion, the relative error of either is below 1e-6.
   for (const auto& [method, step] :
        {std::pair("gauss_legendre_6", 100000), {"runge_kutta_4", 20000}}) {
     RunningSystem system(s, method, step);

@@ -1,4 +1,5 @@
-// A shaft weighed, and bent by its weight: against the strength of materials by hand.
+// Mass and static deflection of a shaft under its weight, against hand calculations by strength of
+// materials.
 #include "analysis/rotor_statics.h"
 
 #include <gtest/gtest.h>

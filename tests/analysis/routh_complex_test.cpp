@@ -3,7 +3,7 @@
 #include <random>
 
 #include "analysis/routh.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
@@ -70,8 +70,8 @@ TEST(RouthComplex, DegreeZeroHasNoRoots) {
 }
 
 TEST(RouthComplex, RefusesAPolynomialWithoutCoefficients) {
-  EXPECT_THROW(routh(Polynomial{}), Refusal);
-  EXPECT_THROW(routh(Polynomial{{0, 0}, {0, 0}}), Refusal);
+  EXPECT_THROW(routh(Polynomial{}), InputError);
+  EXPECT_THROW(routh(Polynomial{{0, 0}, {0, 0}}), InputError);
 }
 
 TEST(RouthComplex, RandomRootsAreCountedWhereTheyWerePutWhateverTheComplexFactor) {

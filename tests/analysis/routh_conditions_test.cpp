@@ -7,7 +7,7 @@
 #include "analysis/routh.h"
 #include "analysis/routh_table.h"
 #include "hurwitz_minors.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
@@ -28,7 +28,7 @@ TEST(RouthConditions, AgreeWithTheTableOnTheReferencePolynomials) {
   int tested = 0;
   for (const auto& reference : referenceCases("routh_cases.json")) {
     const int degree = reference["degree"];
-    if (degree > kMostConditionDegree) {
+    if (degree > kMaxConditionDegree) {
       continue;
     }
     const Polynomial exact = exactCoefficients(reference["coefficients"]);
@@ -47,7 +47,7 @@ TEST(RouthConditions, AgreeWithTheTableOnRandomPolynomials) {
   int stable_ones = 0;
   const int trials = 6000;
   for (int trial = 0; trial < trials; ++trial) {
-    const int degree = 1 + trial % kMostConditionDegree;
+    const int degree = 1 + trial % kMaxConditionDegree;
     Polynomial polynomial{scale(random) * (trial % 5 == 0 ? -1 : 1)};
     int left = degree;
     for (; left >= 2; left -= 2) {
@@ -77,7 +77,7 @@ TEST(RouthConditions, AgreeWithTheTableOnRandomDoubles) {
   std::mt19937 random(32);
   std::lognormal_distribution<double> positive(0.0, 1.0);
   for (int trial = 0; trial < 3000; ++trial) {
-    std::vector<double> polynomial(2 + trial % kMostConditionDegree);
+    std::vector<double> polynomial(2 + trial % kMaxConditionDegree);
     for (double& c : polynomial) {
       c = positive(random);
     }
@@ -110,7 +110,7 @@ TEST(RouthConditions, OfTheNotesExamples) {
   EXPECT_EQ(cubic[3].left, 12.0);
   EXPECT_EQ(cubic[3].right, 2.0);
   EXPECT_TRUE(cubic[3].holds);
-  // 6, 18, 24, 16: 2592 > 576 + 576, where the misprint would say 576 + 93312.
+  // 6, 18, 24, 16: 2592 > 576 + 576, where the misprint would give 576 + 93312.
   const RouthCondition quartic = routhConditions(Polynomial{1, 6, 18, 24, 16}).back();
   EXPECT_EQ(quartic.left, 2592.0);
   EXPECT_EQ(quartic.right, 1152.0);
@@ -120,7 +120,7 @@ TEST(RouthConditions, OfTheNotesExamples) {
 TEST(RouthConditions, OnTheBoundaryDoNotHold) {
   // (s^2 + 4)(s + 1)^n: an imaginary pair.
   Polynomial polynomial{1, 0, 4};
-  for (int degree = 3; degree <= kMostConditionDegree; ++degree) {
+  for (int degree = 3; degree <= kMaxConditionDegree; ++degree) {
     polynomial = product<Rational>(polynomial, {1, 1});
     const RouthCondition last = routhConditions(polynomial).back();
     EXPECT_FALSE(last.holds) << degree;
@@ -129,10 +129,10 @@ TEST(RouthConditions, OnTheBoundaryDoNotHold) {
 }
 
 TEST(RouthConditions, RefuseOtherDegrees) {
-  EXPECT_THROW(routhConditions(Polynomial{5}), Refusal);
-  EXPECT_THROW(routhConditions(Polynomial{0, 0}), Refusal);
-  EXPECT_THROW(routhConditions(Polynomial(8, 1)), Refusal);
-  EXPECT_THROW(routhConditions(std::vector<double>{1.0, NAN}), Refusal);
+  EXPECT_THROW(routhConditions(Polynomial{5}), InputError);
+  EXPECT_THROW(routhConditions(Polynomial{0, 0}), InputError);
+  EXPECT_THROW(routhConditions(Polynomial(8, 1)), InputError);
+  EXPECT_THROW(routhConditions(std::vector<double>{1.0, NAN}), InputError);
   EXPECT_EQ(routhConditions(Polynomial{0, 0, 2, 4}).size(), 1u);  // leading zeros dropped
 }
 

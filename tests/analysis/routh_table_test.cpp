@@ -1,4 +1,4 @@
-// Routh's table as it is taught, and for which values of a parameter a polynomial is stable.
+// Routh's table in textbook form, and the parameter ranges in which a polynomial is stable.
 #include "analysis/routh_table.h"
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(RouthTable, HasTheSymbolInItsEntries) {
   EXPECT_EQ(entries(table.rows[3], "K"), (Words{"3"}));
 }
 
-// The first column is that of the test which counts; also where rows are zero or begin with zeros.
+// The first column is that of the stability test; also where rows are zero or begin with zeros.
 TEST(RouthTable, HasTheFirstColumnOfTheTest) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> digit(-2, 2);
@@ -111,7 +111,7 @@ TEST(SymbolicPolynomial, IsReadAsItIsWritten) {
   }
   for (const char* wrong :
        {"", "L", "1/K", "1/0", "K^", "K^99", "2 3", "(K", "K)", "1..2", "nan"}) {
-    EXPECT_THROW(parseSymbolic(wrong, "K"), Refusal) << wrong;
+    EXPECT_THROW(parseSymbolic(wrong, "K"), InputError) << wrong;
   }
 }
 
@@ -193,7 +193,7 @@ TEST(StabilityRange, IsNothingWhereAPairStaysOnTheAxis) {
   EXPECT_EQ(range.intervals.back().routh.imaginary, 2);
 }
 
-// Between the bounds the counts are those of any K there: tried on a grid, by the exact test.
+// Between the bounds the counts are those of any K there: checked on a grid, by the exact test.
 TEST(StabilityRange, CountsAreThoseOfEveryValue) {
   std::mt19937 random(2);
   std::uniform_int_distribution<int> digit(-3, 3);
@@ -229,9 +229,9 @@ TEST(StabilityRange, CountsAreThoseOfEveryValue) {
 }
 
 TEST(StabilityRange, RefusesWhatIsNoPolynomialInS) {
-  EXPECT_THROW(rangeOf({"K"}), Refusal);
-  EXPECT_THROW(rangeOf({"0", "0"}), Refusal);
-  EXPECT_THROW(rangeOf(Words(18, "K")), Refusal);
+  EXPECT_THROW(rangeOf({"K"}), InputError);
+  EXPECT_THROW(rangeOf({"0", "0"}), InputError);
+  EXPECT_THROW(rangeOf(Words(18, "K")), InputError);
 }
 
 }  // namespace routh_table_test

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "hurwitz_minors.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
@@ -135,13 +135,13 @@ TEST(Routh, FirstColumnBeyondTheRangeOfDoubleKeepsItsSign) {
 }
 
 TEST(Routh, RefusesWhatIsNoPolynomial) {
-  EXPECT_THROW(routh(std::vector<double>{}), Refusal);
-  EXPECT_THROW(routh(std::vector<double>{0, 0}), Refusal);
-  EXPECT_THROW(routh(std::vector<Rational>{}), Refusal);
+  EXPECT_THROW(routh(std::vector<double>{}), InputError);
+  EXPECT_THROW(routh(std::vector<double>{0, 0}), InputError);
+  EXPECT_THROW(routh(std::vector<Rational>{}), InputError);
   try {
     routh(std::vector<double>{1, 2, std::numeric_limits<double>::quiet_NaN()});
     FAIL() << "accepted NaN";
-  } catch (const Refusal& error) {
+  } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "polynomial: coefficient 3 of 3 must be a finite number, found nan");
   }
 }

@@ -1,4 +1,4 @@
-// Where linear systems rest under constant loads: K q = load, so that nothing accelerates there.
+// Equilibria of linear systems under constant loads: K q = load, so that nothing accelerates there.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,8 +11,8 @@
 #include "models/model_registry.h"
 #include "models_under_test.h"
 #include "random_systems.h"
+#include "scene/model_context.h"
 #include "scene/scene_reader.h"
-#include "scene/surroundings.h"
 
 namespace whirl_twin {
 namespace sag_test {
@@ -26,11 +26,11 @@ void expectRest(const Dynamics& dynamics, double speed, const std::string& what)
   ASSERT_EQ(all.size(), 1u) << what;
   const Dynamics& mean = dynamics.atMeanLoad();
   const VectorXd zero = VectorXd::Zero(dynamics.dof());
-  const Moment<double> at{0.0, 0.0, speed, 0.0};
+  const EvaluationPoint<double> at{0.0, 0.0, speed, 0.0};
   const Linearization l = mean.linearization(zero, zero, zero, at);
   // Forces, not accelerations: a light coordinate between stiff springs shows their rounding.
-  const VectorXd left = mean.unbalancedForce(all[0].q, zero, at);
-  const VectorXd parts = mean.unbalancedForce(zero, zero, at).cwiseAbs() +
+  const VectorXd left = mean.residualForce(all[0].q, zero, at);
+  const VectorXd parts = mean.residualForce(zero, zero, at).cwiseAbs() +
                          (l.stiffness + l.circulatory).cwiseAbs() * all[0].q.cwiseAbs();
   EXPECT_LE((left.cwiseAbs() - 1.0e-12 * parts).maxCoeff(), 0.0) << what;
   const double falling = mean.acceleration(zero, zero, at).norm();
@@ -52,7 +52,8 @@ TEST(Sag, OfAJeffcottRotorIsItsWeightOverItsStiffness) {
   }
 }
 
-// ROSS's rotor2, a shaft of two elements with a disc in springs of 1 MN/m: what it settles at.
+// ROSS's rotor2, a shaft of two elements with a disc in springs of 1 MN/m: the position at which it
+// settles.
 TEST(Sag, OfAFlexibleRotorIsWhatItSettlesAt) {
   FlexibleShaft shaft;
   shaft.material = {2.11e11, 8.12e10, 7810.0, true};
@@ -123,7 +124,7 @@ TEST(Sag, LeavesNothingThatAcceleratesInRandomSystems) {
   }
 }
 
-// A shaft that nothing bears falls: there is no rest, and none is made up.
+// A shaft without supports falls: there is no equilibrium, and none is reported.
 TEST(Sag, OfAShaftWithoutBearingsIsNone) {
   for (const int elements : {1, 3, 8}) {
     FlexibleShaft shaft = freeShaft(elements, 1.0, 0.1);

@@ -7,7 +7,7 @@
 
 #include "analysis/sampled_stability.h"
 #include "loops_under_test.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "simulated_loop.h"
 
 namespace whirl_twin {
@@ -110,9 +110,9 @@ TEST(SampledLoop, AControllerByItselfIsItsOwnLaw) {
             Verdict::kAsymptoticallyStable);
 }
 
-/// A swing that hardly dies out, held and turned by two controllers: it is as large after 1e5
-/// samples as it was. Rounding of a transition, 1e-16, moves its phase by as much in each of its
-/// powers.
+/// A weakly damped oscillation under two controllers that drive it on: its amplitude after 1e5
+/// samples is the initial one. Rounding of a transition matrix, 1e-16, shifts the phase by as much
+/// in each of its powers.
 TEST(SampledLoop, ItsPowersAreTheMotionSampleBySample) {
   LoopPlant plant{MatrixXd::Zero(3, 3), MatrixXd::Zero(3, 2), MatrixXd::Zero(2, 3)};
   plant.a << 0, 1, 0, -400.0, -2e-6, 3.0, 0, 0, -5.0;
@@ -198,13 +198,13 @@ TEST(SampledLoop, SaysWhereRatesHaveNothingInCommon) {
 
 TEST(SampledLoop, RefusesWhatCannotBeMeant) {
   const LoopPlant plant = unstableMass();
-  EXPECT_THROW(sampledLoop(plant, {}), Refusal);
+  EXPECT_THROW(sampledLoop(plant, {}), InputError);
   LoopController c = levitation(1, 1, 0.1, 0);
   c.rate = 0.0;
-  EXPECT_THROW(sampledLoop(plant, {c}), Refusal);
+  EXPECT_THROW(sampledLoop(plant, {c}), InputError);
   c.rate = NAN;
-  EXPECT_THROW(sampledLoop(plant, {c}), Refusal);
-  EXPECT_THROW(sampledLoop(plant, {levitation(1, 1, 0.1, -0.1)}), Refusal);
+  EXPECT_THROW(sampledLoop(plant, {c}), InputError);
+  EXPECT_THROW(sampledLoop(plant, {levitation(1, 1, 0.1, -0.1)}), InputError);
   EXPECT_THROW(sampledLoop(plant, {levitation(1, 1, 0.1, 4001.0)}), RunFailure);
   c = levitation(1, 1, 0.1, 0);
   c.acts_on = {1};

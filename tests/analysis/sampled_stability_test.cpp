@@ -88,7 +88,7 @@ TEST(UnitCircle, KnowsTheBoundaryOfTheSampledMassToTheLastDigit) {
   }
 }
 
-/// A free mass all of which is seen, and a loop of it.
+/// A free mass with all states measured, and a loop of it.
 SampledStability heldMass(double k1, double k2, double period) {
   LoopPlant plant{MatrixXd::Zero(2, 2), MatrixXd::Zero(2, 1), MatrixXd::Identity(2, 2)};
   plant.a(0, 1) = plant.b(1, 0) = 1.0;
@@ -101,12 +101,13 @@ TEST(SampledStability, IsWhatTheEquationsOfTheMassSay) {
   EXPECT_EQ(heldMass(8.0 * (1.0 - 1e-12), 1.0, 0.25).verdict, Verdict::kAsymptoticallyStable);
   EXPECT_EQ(heldMass(8.0, 1.0, 0.25).verdict, Verdict::kMarginal);
   EXPECT_EQ(heldMass(8.0 * (1.0 + 1e-12), 1.0, 0.25).verdict, Verdict::kUnstable);
-  EXPECT_EQ(heldMass(0.0, 1.0, 0.1).verdict, Verdict::kMarginal);           // it may stand anywhere
+  // in equilibrium at any position
+  EXPECT_EQ(heldMass(0.0, 1.0, 0.1).verdict, Verdict::kMarginal);
   EXPECT_EQ(heldMass(0.0, 0.0, 0.1).verdict, Verdict::kRepeatedImaginary);  // it drifts
 }
 
 TEST(SampledStability, TwoOfAKindOnTheCircleAreMarginal) {
-  // Two free masses side by side, each braked: two roots at 1 with a direction of their own.
+  // Two uncoupled free masses, each with a damper: two roots at 1 with independent eigenvectors.
   LoopPlant plant{MatrixXd::Zero(4, 4), MatrixXd::Zero(4, 2), MatrixXd::Identity(4, 4)};
   plant.a(0, 2) = plant.a(1, 3) = plant.b(2, 0) = plant.b(3, 1) = 1.0;
   MatrixXd gain = MatrixXd::Zero(2, 4);
@@ -122,8 +123,8 @@ TEST(SampledStability, TwoOfAKindOnTheCircleAreMarginal) {
 }
 
 /// A magnetic bearing of k_i = mu0 N^2 A i0 cos(alpha) / s0^2 and k_s = k_i i0 / s0, with PD
-/// control of just the gain k_p = i0 / s0: nothing holds the rotor at its place. Numbers: an
-/// example of ROSS (petrobras/ross, MagneticBearingElement), whose sensitivity test passes on it.
+/// control of exactly the gain k_p = i0 / s0: the net stiffness is zero. Numbers: an example of
+/// ROSS (petrobras/ross, MagneticBearingElement), whose sensitivity test accepts it.
 SampledStability magneticBearing(double of_the_gain) {
   constexpr double kAir = 4e-7 * M_PI, kTurns = 200.0, kArea = 1e-4, kGap = 1e-3, kBias = 1.0;
   constexpr double kMass = 6.7;

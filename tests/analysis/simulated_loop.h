@@ -1,5 +1,5 @@
-// A loop as it runs: from instant to instant by matrix exponentials in extended precision, knowing
-// nothing of transitions.
+// Simulation of a closed loop: from instant to instant by matrix exponentials in extended
+// precision, independent of the transition matrices.
 #pragma once
 
 #include <Eigen/Core>

@@ -18,7 +18,8 @@ Verdict verdict(const Equilibrium& e) {
   return e.stability.routh.verdict;
 }
 
-/// A disc whose weight returns it with kappa = k r^2 / (m g l) times less than its spring.
+/// A disc whose restoring stiffness by weight is kappa = k r^2 / (m g l) times less than that of
+/// its spring.
 std::vector<Equilibrium> ofDisc(double radius, double kappa) {
   const double offset = 2.0 / 3.0 * radius;
   return equilibria(
@@ -74,7 +75,8 @@ TEST(Equilibria, aDiscWithASoftSpringHasPairsToBothSides) {
   }
 }
 
-// Without a spring it rests with its weight below and balances with it above, turn after turn.
+// Without a spring it is in equilibrium with its weight below (stable) and above (unstable), in
+// every turn.
 TEST(Equilibria, aDiscWithoutASpringHasOneEveryHalfTurn) {
   const auto all = ofDisc(0.3, 0.0);
   ASSERT_GE(all.size(), 2u * 8u);
@@ -86,7 +88,7 @@ TEST(Equilibria, aDiscWithoutASpringHasOneEveryHalfTurn) {
   }
 }
 
-// r = r0 +- m0 g / k: hanging and balancing. On a spring as soft as the first the slider can get so
+// r = r0 +- m0 g / k: hanging and inverted. On a spring as soft as the first the slider can get so
 // far behind the pivot that it hangs there, and balances the rod at r = -m l / (2 m0) to both
 // sides.
 TEST(Equilibria, aSliderRestsBelowAndBalancesAboveItsPivot) {
@@ -141,7 +143,8 @@ TEST(Equilibria, aCartsRodHangsOrStands) {
                  {"force_frequency", 3.0},
                  {"support_amplitude", 0.002},
                  {"support_frequency", 3.0}});
-  // Loads that alternate do not displace it; a cart without a spring stands anywhere: at 0, say.
+  // Alternating loads do not displace it; a cart without a spring is in equilibrium anywhere: at 0
+  // by convention.
   for (const ParameterValues& parameters : {cart(30.0), loaded, cart(0.0)}) {
     const auto all = equilibria(*dynamicsOf("cart_pendulum", parameters), 0.0);
     ASSERT_EQ(all.size(), 2u);

@@ -42,7 +42,7 @@ TEST(SommerfeldSpeeds, OfAStrongMotorIsOne) {
   EXPECT_TRUE(found[0].stable);
 }
 
-// The torque is what a probe would infer: c w r^2 of each damper.
+// The whirl torque as inferred from a probe: c w r^2 of each damper.
 TEST(WhirlTorque, IsThePowerOfTheDampersOverTheSpeed) {
   RotorUnderTest r = chainRotor(4, 5.0e5, 1.4);
   addUnbalance(r, 1, {2.0e-5, 1.0e-5});

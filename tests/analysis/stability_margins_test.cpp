@@ -9,7 +9,7 @@
 
 #include "analysis/polynomial_roots.h"
 #include "analysis/routh.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
@@ -29,7 +29,7 @@ int largestMultiplicity(ExactPolynomial polynomial) {
   return multiplicity;
 }
 
-/// What the margins may be off by relative to the rightmost root. Simple roots: 1e-17, a hundred
+/// Tolerance of the margins relative to the rightmost root. Simple roots: 1e-17, a hundred
 /// roundings of extended precision (measured: below 1e-18). A root of multiplicity m keeps 1/m of
 /// the digits: (s + a)^m is known to 2^m roundings, so the root to 2 eps^(1/m); twice that.
 double relativeTolerance(const std::vector<double>& coefficients) {
@@ -128,9 +128,10 @@ TEST(Roots, LieWhereTheExactTestCountsThem) {
 }
 
 TEST(Roots, RefuseWhatIsNoPolynomial) {
-  EXPECT_THROW(roots(std::vector<double>{}), Refusal);
-  EXPECT_THROW(roots(std::vector<Complex>{0.0}), Refusal);
-  EXPECT_THROW(decayRate(std::vector<double>{1, std::numeric_limits<double>::infinity()}), Refusal);
+  EXPECT_THROW(roots(std::vector<double>{}), InputError);
+  EXPECT_THROW(roots(std::vector<Complex>{0.0}), InputError);
+  EXPECT_THROW(decayRate(std::vector<double>{1, std::numeric_limits<double>::infinity()}),
+               InputError);
 }
 
 TEST(DecayRate, OfAConstantIsInfiniteAndItHasNoDampingRatio) {

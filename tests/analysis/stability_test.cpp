@@ -11,7 +11,7 @@
 #include "algebra/dense.h"
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/equilibria.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "models_under_test.h"
 
 namespace whirl_twin {
@@ -51,7 +51,7 @@ TEST(CharacteristicPolynomial, isTheDeterminantAtRandomPoints) {
 
 TEST(CharacteristicPolynomial, refusesASingularMass) {
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(1, 1);
-  EXPECT_THROW(characteristicPolynomial({zero, zero, zero, zero, zero}), Refusal);
+  EXPECT_THROW(characteristicPolynomial({zero, zero, zero, zero, zero}), InputError);
 }
 
 // Kimball: with c_e/c_i = 2 the rotor is stable below exactly 3 p = 900 rad/s.
@@ -103,7 +103,8 @@ TEST(Stability, anOverdampedModeKeepsItsFrequencyAndRatio) {
   EXPECT_TRUE(std::isnan(s.log_decrement));
 }
 
-// Routh and the eigenvalues are independent: they agree wherever a real part can be told from zero.
+// Routh and the eigenvalues are independent: they agree wherever the real part differs from zero by
+// more than rounding.
 TEST(Stability, routhAndEigenvaluesAgreeOnRandomSystems) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -144,7 +145,7 @@ TEST(RightByEigenvalues, isToldWhereNothingExplainsADifference) {
 }
 
 TEST(RightByEigenvalues, isRouthsWhereRoundingLeavesItOpen) {
-  // Beside the threshold by a unit or a thousand in the last place the eigenvalues cannot tell.
+  // Within one to a thousand ulps of the threshold the eigenvalues cannot decide.
   for (const double ulps : {-1000.0, -10.0, -1.0, 0.0, 1.0, 10.0, 1000.0}) {
     const Linearization near = rotorAt(600.0 * (1.0 + ulps * 2.2e-16), 20.0, 20.0);
     const auto roots = eigenvalues(near);

@@ -154,7 +154,7 @@ TEST_F(SteadyMotions, AGovernedEngineHuntsWithoutEnoughFriction) {
 }
 
 // T_motor = c w r(w)^2 with r = e w^2 / |p^2 - w^2 + i c w / m|: three steady speeds of a weak
-// motor, of which the middle one, where more speed asks for less torque, is unstable (Sommerfeld).
+// motor, of which the middle one, where more speed requires less torque, is unstable (Sommerfeld).
 TEST_F(SteadyMotions, AWeakMotorHasThreeSteadySpeedsAndStaysAtTheLowest) {
   for (int draw = 0; draw < 50; ++draw) {
     const double m = between(0.5, 5.0);
@@ -212,7 +212,7 @@ Settings matrices(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& damping,
   return settings;
 }
 
-// p3^2 = kb (1/m1 + 4/m2 + 1/m3) beside two rigid-body modes, which say nothing of stability.
+// p3^2 = kb (1/m1 + 4/m2 + 1/m3) beside two rigid-body modes, which do not affect stability.
 TEST_F(SteadyMotions, AFreeBarBendsAboutItsRigidBodyModes) {
   const Eigen::Vector3d bend(1.0, -2.0, 1.0);
   for (int draw = 0; draw < 200; ++draw) {
@@ -263,7 +263,7 @@ TEST_F(SteadyMotions, APlankThatSticksHasARestInTheMiddle) {
 }
 
 // Two equal oscillators beside a sliding body with a damper: equal frequencies with independent
-// shapes do not grow.
+// eigenvectors do not grow.
 TEST_F(SteadyMotions, EqualFrequenciesBesideADampedSlideAreNoResonance) {
   const Eigen::Vector3d k(1.0, 1.0, 0.0);
   const Eigen::Vector3d c(0.0, 0.0, 1.0);
@@ -289,7 +289,7 @@ TEST_F(SteadyMotions, ABeamUnderASteadyLoadRestsAtItsStaticAngle) {
   EXPECT_NEAR(rest->q[0], 2.0 * 100.0 / 4000.0, 1e-15) << "2 f / k";
 }
 
-// Beyond kMostExactCoordinates the definiteness of the matrices decides, as the exact test does up
+// Beyond kMaxExactCoordinates the definiteness of the matrices decides, as the exact test does up
 // to there.
 TEST_F(SteadyMotions, LargeSystemsAreJudgedByTheDefinitenessOfTheirMatrices) {
   const auto chain = [](Eigen::Index n, double loss, double twist) {
@@ -305,7 +305,7 @@ TEST_F(SteadyMotions, LargeSystemsAreJudgedByTheDefinitenessOfTheirMatrices) {
     l.circulatory(1, 0) = -twist;
     return stability(l).routh;
   };
-  for (const Eigen::Index n : {kMostExactCoordinates, kMostExactCoordinates + 4}) {
+  for (const Eigen::Index n : {kMaxExactCoordinates, kMaxExactCoordinates + 4}) {
     EXPECT_EQ(chain(n, 0.0, 0.0).verdict, Verdict::kMarginal) << n;
     EXPECT_EQ(chain(n, 0.0, 0.0).imaginary, 2 * n);
     EXPECT_EQ(chain(n, 0.01, 0.0).verdict, Verdict::kAsymptoticallyStable) << n;

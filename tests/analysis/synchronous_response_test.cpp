@@ -58,7 +58,7 @@ TEST(Orbit, HasItsAxesInclinationAndDirection) {
   EXPECT_EQ(Orbit(1.0, 0.5).direction(), Whirl::kStraight);
 }
 
-// At a peak a probe sees what the sweep sees: no resolution of the sweep hides it.
+// A probe at a peak gives the sweep's value: every peak is resolved by the sweep.
 TEST(SynchronousSweep, ResolvesEveryPeak) {
   RotorUnderTest r = chainRotor(3, 5.0e5, 1.3, 2.0);
   addUnbalance(r, 0, 1.0e-5);
@@ -80,8 +80,8 @@ TEST(SynchronousSweep, ResolvesEveryPeak) {
   }
 }
 
-// A rotor without unbalance responds as if its mass at the station had a unit eccentricity; with
-// one of its own the peaks stand where they stood.
+// A rotor without unbalance responds as if its mass at the station had a unit eccentricity; with an
+// unbalance the peaks are at the same speeds.
 TEST(CriticalSpeeds, DoNotMoveWithTheSizeOfTheUnbalance) {
   RotorUnderTest unbalanced = chainRotor(2);
   addUnbalance(unbalanced, 0, {0.0, 2.0e-5});
@@ -96,7 +96,7 @@ TEST(CriticalSpeeds, DoNotMoveWithTheSizeOfTheUnbalance) {
 }
 
 // Every peak of a rotor of many coordinates is at one of its forward undamped critical speeds,
-// which the damping moves by less than a percent; a mode with a node at the unbalance makes none.
+// which the damping shifts by less than a percent; a mode with a node at the unbalance has none.
 TEST(CriticalSpeeds, OfFortyCoordinates) {
   RotorUnderTest r = chainRotor(20, 5.0e5, 1.0, 20.0);
   addUnbalance(r, 3, 1.0e-5);

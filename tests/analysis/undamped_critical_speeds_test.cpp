@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "rotors_under_test.h"
 
 namespace whirl_twin {
@@ -93,7 +93,7 @@ TEST(UndampedCriticalSpeeds, OfAFreeRotorLeaveOutItsDrift) {
   const RotorUnderTest r = chainRotor(3, 0.0);
   const auto found = undampedCriticalSpeeds(r.rotor, r.stations, 1.0e4);
   ASSERT_EQ(found.size(), 4u);
-  // The drift is told from a vibration by soft springs: they cost half the digits.
+  // The rigid-body drift is separated from a vibration by soft springs: they cost half the digits.
   EXPECT_NEAR(found[0].speed, std::sqrt(5.0e5), 1.0e-2);
 }
 

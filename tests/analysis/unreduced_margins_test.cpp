@@ -1,7 +1,5 @@
-// What the judgement of a reduced rotor knows of the rotor itself, beside all eigenvalues of that
-// in extended precision.
-#include "analysis/unreduced_margins.h"
-
+// Full-order margins in the stability evaluation of a reduced-order rotor, against all eigenvalues
+// of the full-order model in extended precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <limits>
 
 #include "all_eigenvalues.h"
+#include "analysis/full_order_margins.h"
 #include "analysis/modal_reduction.h"
 #include "mechanics/linear_rotor_dynamics.h"
 #include "random_shafts.h"
@@ -42,7 +41,7 @@ Truth truthOf(const Linearization& l, double reach) {
   return truth;
 }
 
-/// In `count` shapes, with these forces at its nodes.
+/// With `count` modes, with these forces at its nodes.
 std::shared_ptr<const Dynamics> reduced(const FlexibleShaft& shaft, int count,
                                         double highest_speed) {
   const RotorAssembly whole(shaft);
@@ -55,13 +54,13 @@ std::shared_ptr<const Dynamics> reduced(const FlexibleShaft& shaft, int count,
     description.coordinates.push_back({"q" + std::to_string(i), "m"});
   }
   description.stations = assembly.stations();
-  LinearRotor rotor = assembly.linearRotor(std::make_shared<const UnreducedRotor>(
-      UnreducedRotor{std::make_shared<const RotorAssembly>(whole), kept.shapes, {}}));
+  LinearRotor rotor = assembly.linearRotor(std::make_shared<const FullOrderRotor>(
+      FullOrderRotor{std::make_shared<const RotorAssembly>(whole), kept.shapes, {}}));
   rotor.highest_speed = highest_speed;
   return std::make_shared<const LinearRotorDynamics>(std::move(description), std::move(rotor));
 }
 
-TEST(UnreducedMargins, AreThoseOfAllEigenvaluesOfTheRotorHoweverFewShapesAreKept) {
+TEST(FullOrderMargins, AreThoseOfAllEigenvaluesOfTheRotorHoweverFewShapesAreKept) {
   int disagreed = 0;
   int grew = 0;
   int beyond = 0;
@@ -74,11 +73,11 @@ TEST(UnreducedMargins, AreThoseOfAllEigenvaluesOfTheRotorHoweverFewShapesAreKept
     const double rounding = 1.0e-9 * truth.frequency;
     for (const int count : {2, 4, 10}) {
       const auto dynamics = reduced(drawn.shaft, count, highest);
-      const auto margins = UnreducedMargins::of(dynamics);
+      const auto margins = FullOrderMargins::of(dynamics);
       ASSERT_TRUE(margins);
       const ReducedMargins found = margins->at(Eigen::VectorXd::Zero(count), drawn.speed);
       if (truth.beyond && !found.unreduced.grows) {
-        ++beyond;  // too far out to be looked for
+        ++beyond;  // outside the search range
         continue;
       }
       EXPECT_NEAR(found.unreduced.decay_rate, truth.decay_rate, rounding)
@@ -98,7 +97,7 @@ TEST(UnreducedMargins, AreThoseOfAllEigenvaluesOfTheRotorHoweverFewShapesAreKept
   EXPECT_LE(beyond, 6);
 }
 
-TEST(UnreducedMargins, AreNoneOfARotorInAllItsCoordinates) {
+TEST(FullOrderMargins, AreNoneOfARotorInAllItsCoordinates) {
   const RotorAssembly whole(randomShaft(1, 6).shaft);
   RotorDescription description;
   description.model = "flexible_rotor";
@@ -106,7 +105,7 @@ TEST(UnreducedMargins, AreNoneOfARotorInAllItsCoordinates) {
     description.coordinates.push_back({"q" + std::to_string(i), "m"});
   }
   description.stations = whole.stations();
-  EXPECT_FALSE(UnreducedMargins::of(
+  EXPECT_FALSE(FullOrderMargins::of(
       std::make_shared<const LinearRotorDynamics>(std::move(description), whole.linearRotor())));
 }
 

@@ -1,4 +1,4 @@
-// The conditions under which the equations hold, at the states where they stop to.
+// The conditions for the validity of the equations, at the states where they are violated.
 #include "analysis/validity.h"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ TEST(Validity, ADiscSlipsWherePlaneAndSpringPullHarderThanFrictionHolds) {
   }
 }
 
-// Masses may be as different as they like; what has none is singular.
+// Masses may differ by any ratio; a coordinate without inertia is singular.
 TEST(Validity, AMassMatrixIsSingularOnlyWhereSomethingHasNoInertia) {
   const Eigen::VectorXd rest = vector({0.3, 0.2});
   const Eigen::VectorXd in_line = vector({0.3, 0.3});

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 /// delta W [J] of all forces on a system at rest in q, for a displacement of its coordinates.
 double virtualWork(const Dynamics& dynamics, const VectorXd& q, const VectorXd& displacement) {
-  return dynamics.unbalancedForce(q, VectorXd::Zero(q.size()), {}).dot(displacement);
+  return dynamics.residualForce(q, VectorXd::Zero(q.size()), {}).dot(displacement);
 }
 
 VectorXd one(double value) {
@@ -41,7 +41,7 @@ TEST(VirtualWork, OfTheTwoBarLinkageIsThatOfTheNotes) {
         force * 2.0 * l * std::cos(theta) - 2.0 * m * g * 0.5 * l * std::sin(theta);
     EXPECT_NEAR(virtualWork(*bars, one(theta), one(1e-3)), 1e-3 * expected, 1e-12);
   }
-  // Zero where the notes say (with their slip put right): tan(theta) = 2 P / (m g).
+  // Zero where the notes state (with their error corrected): tan(theta) = 2 P / (m g).
   const double rest = std::atan(2.0 * force / (m * g));
   EXPECT_NEAR(virtualWork(*bars, one(rest), one(1.0)), 0.0, 1e-12);
 }

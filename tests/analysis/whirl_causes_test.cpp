@@ -1,6 +1,6 @@
-// What makes a rotor whirl by itself: rotating damping, a fluid that turns with the shaft,
-// cross-coupled stiffness. Thresholds and eigenvalues against the reference rotors, and growth seen
-// in time on both sides of them.
+// Causes of self-excited whirl: rotating damping, a fluid that rotates with the shaft,
+// cross-coupled stiffness. Thresholds and eigenvalues against the reference rotors, and growth in
+// time on both sides of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "../integration/running_system.h"
 #include "analysis/equilibria.h"
 #include "analysis/instability_speed.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "models_under_test.h"
 
 namespace whirl_twin {
@@ -30,7 +30,7 @@ Json referenceRotor(const std::string& id) {
       return reference;
     }
   }
-  throw Refusal("no reference rotor " + id);
+  throw InputError("no reference rotor " + id);
 }
 
 Json expected(const Json& reference, const std::string& name) {

@@ -76,8 +76,8 @@ TEST(WhirlModes, OfARigidRotorInDampedAnisotropicBearings) {
   }
 }
 
-// Forward and backward whirl of a round rotor without gyroscopic moments have one eigenvalue, and
-// the solver any two shapes of it: told apart all the same.
+// Forward and backward whirl of an isotropic rotor without gyroscopic moments share one eigenvalue,
+// and the solver returns an arbitrary basis of its eigenspace: they must still be separated.
 TEST(WhirlModes, OfOneEigenvalueAreToldApartByDirection) {
   const RotorUnderTest r = chainRotor(4, 5.0e5, 1.0, 0.0);
   const WhirlModes modes = whirlModes(r.rotor, r.stations, 100.0);
@@ -212,8 +212,7 @@ TEST(Campbell, CrossingsSolveTheFrequencyEquation) {
   EXPECT_EQ(once, 3);  // Ip > Id: the second forward branch is never met
 }
 
-/// Discs that do not know of each other, each at x_i, y_i on springs p_i^2 [1/s^2] and dampers
-/// 2 zeta p_i [1/s].
+/// Uncoupled discs, each at x_i, y_i on springs p_i^2 [1/s^2] and dampers 2 zeta p_i [1/s].
 RotorUnderTest discsApart(int discs, double damping_ratio) {
   RotorUnderTest r;
   r.rotor.matrices = [=](double) {
@@ -236,7 +235,8 @@ RotorUnderTest discsApart(int discs, double damping_ratio) {
   return r;
 }
 
-// However few modes are followed, the speed meets all of its range: p sqrt(1 - zeta^2) each.
+// With any number of tracked modes, all critical speeds of the range are found: p sqrt(1 - zeta^2)
+// each.
 TEST(Campbell, FindsTheCriticalSpeedsOfModesThatAreNotFollowed) {
   const double zeta = 0.1;
   const RotorUnderTest r = discsApart(9, zeta);

@@ -1,11 +1,10 @@
-// The whole of a shaft from the whirl at a node or two, beside its equations.
-#include "analysis/whole_shape.h"
-
+// Expansion of the whirl at a node or two to the whole shaft, against its equations.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "algebra/dense.h"
+#include "analysis/shape_expansion.h"
 #include "analysis/synchronous_response.h"
 #include "mechanics/rotors/rotor_assembly.h"
 
@@ -34,13 +33,13 @@ Eigen::VectorXd whirlOf(const std::vector<Station>& stations, const Eigen::Vecto
   return whirl;
 }
 
-TEST(WholeShape, OfASteadyWhirlIsTheSteadyMotionUnderTheWeight) {
+TEST(ShapeExpansion, OfASteadyWhirlIsTheSteadyMotionUnderTheWeight) {
   FlexibleShaft heavy = twoDiscs();
   heavy.gravity = 9.81;
   const RotorAssembly assembly(heavy);
   const LinearRotor rotor = assembly.linearRotor();
   const std::vector<Station> seen{assembly.station(4)};
-  WholeShape shape(rotor, seen);
+  ShapeExpansion shape(rotor, seen);
   for (const double speed : {60.0, 150.0, 300.0}) {
     const Eigen::VectorXd sag = Ldlt(rotor.matrices(speed).stiffness).solve(rotor.load);
     const Eigen::VectorXcd steady = synchronousResponse(rotor, {}, speed).q;
@@ -52,25 +51,25 @@ TEST(WholeShape, OfASteadyWhirlIsTheSteadyMotionUnderTheWeight) {
   }
 }
 
-TEST(WholeShape, IsWhereItIsSeenWhateverElseItDoes) {
+TEST(ShapeExpansion, IsWhereItIsSeenWhateverElseItDoes) {
   const RotorAssembly assembly(twoDiscs());
   const std::vector<Station> seen{assembly.station(1), assembly.station(4)};
-  WholeShape shape(assembly.linearRotor(), seen);
+  ShapeExpansion shape(assembly.linearRotor(), seen);
   const Eigen::Vector4d whirl(1.0e-3, -2.0e-4, 4.0e-4, 7.0e-4);
   const Eigen::VectorXd found = shape.at(1.0, 200.0, whirl);
   EXPECT_LT((whirlOf(seen, found) - whirl).norm(), 1e-9 * whirl.norm());
 }
 
-// Free vibration in the lowest mode, seen at one disc: nothing steady explains it. What a force
-// there does to the shaft is within a tenth of the mode everywhere.
-TEST(WholeShape, OfAModeIsNearlyTheMode) {
+// Free vibration in the lowest mode, measured at one disc: no steady excitation explains it. The
+// response to a force there is within a tenth of the mode everywhere.
+TEST(ShapeExpansion, OfAModeIsNearlyTheMode) {
   FlexibleShaft shaft = twoDiscs();
   const RotorAssembly assembly(shaft);
   const LinearRotor rotor = assembly.linearRotor();
   const Linearization l = rotor.matrices(0.0);
   const SymmetricModes<double> modes = generalizedModes(l.stiffness, l.mass);
   const std::vector<Station> seen{assembly.station(2)};
-  WholeShape shape(rotor, seen);
+  ShapeExpansion shape(rotor, seen);
   for (const Eigen::Index mode : {Eigen::Index{0}, Eigen::Index{1}}) {  // one in each plane
     const Eigen::VectorXd q = modes.vectors.col(mode);
     const Eigen::VectorXd wanted = whirlOf(assembly.stations(), q);
@@ -80,12 +79,12 @@ TEST(WholeShape, OfAModeIsNearlyTheMode) {
   }
 }
 
-TEST(WholeShape, OfAFloatingShaftIsStraight) {
+TEST(ShapeExpansion, OfAFloatingShaftIsStraight) {
   FlexibleShaft floating = twoDiscs();
   floating.bearings.clear();
   const RotorAssembly assembly(floating);
   const std::vector<Station> seen{assembly.station(0), assembly.station(6)};
-  WholeShape shape(assembly.linearRotor(), seen);
+  ShapeExpansion shape(assembly.linearRotor(), seen);
   const Eigen::Vector4d whirl(1.0e-3, 0.0, 3.0e-3, -1.0e-3);
   const Eigen::VectorXd all = whirlOf(assembly.stations(), shape.at(0.0, 100.0, whirl));
   for (Eigen::Index node = 0; node <= 6; ++node) {

@@ -1,5 +1,5 @@
-// What it costs to derive the double pendulum's accelerations from its energies instead of writing
-// the equations of motion by hand: both in one run, in turns.
+// Cost of the double pendulum's accelerations derived from its energies compared with hand-written
+// equations of motion: both in one run, interleaved.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -45,14 +45,14 @@ Array byHand(const DoublePendulum& p, const Array& q, const Array& v) {
 }
 
 Array derived(const DoublePendulum& p, const Array& q, const Array& v) {
-  return derivative(p, q, v, Moment<double>{}).acceleration;
+  return derivative(p, q, v, EvaluationPoint<double>{}).acceleration;
 }
 
 /// The same with the energy audit that every step of the twin carries.
 struct Audited {
   double& work;
   Array operator()(const DoublePendulum& p, const Array& q, const Array& v) const {
-    const Derivative<2> d = derivative(p, q, v, Moment<double>{});
+    const Derivative<2> d = derivative(p, q, v, EvaluationPoint<double>{});
     work += d.power;
     return d.acceleration;
   }

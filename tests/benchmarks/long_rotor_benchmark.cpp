@@ -1,7 +1,7 @@
-// What long rotors cost: shafts of 18, 24, 48 and 96 elements with all their coordinates analysed,
-// and run up; beside the same by dense matrices a speed at a time, as general programs have it
-// (Eigen), and beside what ROSS takes where that was measured. CPU time of one thread, the least of
-// several rounds in which all take turns.
+// Cost of long rotors: analysis and run-up of shafts of 18, 24, 48 and 96 elements with all their
+// coordinates; compared with dense matrices at one speed after another, as in general programs
+// (Eigen), and with ROSS where that was measured. CPU time of one thread, the minimum of several
+// interleaved rounds.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "reports/campbell_report.h"
-#include "reports/method_analysis.h"
 #include "reports/modes_report.h"
 #include "reports/response_report.h"
 #include "reports/system_analysis.h"
@@ -108,7 +107,7 @@ double newmarkStep(const LinearRotor& rotor, double speed) {
   return a.partialPivLu().solve(rotor.shaftForce(0.1, speed, 40.0)).norm();
 }
 
-double sum = 0.0;  // nothing may be left out
+double sum = 0.0;  // prevents elimination by the compiler
 
 struct Task {
   std::string name;
@@ -137,7 +136,7 @@ void addTasks(Size& size, bool dense) {
          const MethodAnalysis methods = analyzeMethods(*whole.systems[0], analysis);
          sum += static_cast<double>((text(analysis) + text(methods, analysis)).size());
        }},
-      {"modes at a speed",
+      {"modes at one speed",
        [rotor] {
          const RotorSystem system = rotor();
          sum += static_cast<double>(modesReport(system, kHighest).model.size());
@@ -175,7 +174,7 @@ void addTasks(Size& size, bool dense) {
 void take(Task& task) {
   const double start = cpuSeconds();
   int done = 0;
-  do {  // for as long as the clock tells well
+  do {  // until the clock's resolution is negligible
     task.run();
     ++done;
   } while (cpuSeconds() - start < 0.02);
@@ -184,7 +183,7 @@ void take(Task& task) {
 
 void print(const std::vector<Size>& sizes) {
   fmt::print(
-      "| elements | | whirl_twin, s | dense, a speed at a time, s | ratio | ROSS, s |\n"
+      "| elements | | whirl_twin, s | dense, one speed at a time, s | ratio | ROSS, s |\n"
       "|---|---|---|---|---|---|\n");
   for (const Size& size : sizes) {
     for (std::size_t i = 0; i < size.ours.size(); ++i) {
@@ -209,10 +208,11 @@ void print(const std::vector<Size>& sizes) {
   };
   const double solution = of(48).dense[0].seconds();
   fmt::print(
-      "\nOf 48 elements, 196 coordinates, `twin analyze` takes {:.2g} and a Campbell diagram of {} "
-      "speeds {:.2g} dense solutions of the same run. From 24 to 96 elements `twin analyze` grows "
-      "by "
-      "a factor of {:.2g}, the diagram by {:.2g}.\n",
+      "\nWith 48 elements, 196 coordinates, `twin analyze` takes as long as {:.2g} dense solutions "
+      "of the "
+      "same run and a Campbell diagram of {} speeds as long as {:.2g}. From 24 to 96 elements the "
+      "time of "
+      "`twin analyze` grows by a factor of {:.2g}, that of the diagram by {:.2g}.\n",
       of(48).ours[0].seconds() / solution, kSpeeds, of(48).ours[2].seconds() / solution,
       of(96).ours[0].seconds() / of(24).ours[0].seconds(),
       of(96).ours[2].seconds() / of(24).ours[2].seconds());
@@ -225,8 +225,8 @@ int main(int argc, char** argv) {
   using whirl_twin::Size;
   const int rounds = argc > 1 && std::string(argv[1]) == "--quick" ? 1 : 5;
   std::vector<Size> sizes;
-  // ROSS 2.3.0 on a machine of this kind, Debian's NumPy with its reference BLAS: run_modal, the
-  // rotor built anew.
+  // ROSS 2.3.0 on a machine of this kind, Debian's NumPy with its reference BLAS: run_modal,
+  // including the construction of the rotor.
   for (const auto& [elements, ross] :
        {std::pair{18, 0.29}, std::pair{24, 0.0}, std::pair{48, 16.0}, std::pair{96, 0.0}}) {
     sizes.push_back(

@@ -1,5 +1,5 @@
-// How late the real-time loop is woken, and how many of its steps end too late, while it steps a
-// scene: for scripts/latency, which runs cyclictest beside it and has its histogram told here too.
+// Wake-up latency of the real-time loop and its deadline misses, while it steps a scene: for
+// scripts/latency, which runs cyclictest at the same time and prints its histogram here too.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kMicrosecond = 1.0e3;  // ns
 
-/// Latencies [us], each with how many wake-ups in all were no later.
+/// Latencies [us], each with the cumulative number of wake-ups.
 struct Latencies {
   std::string name;
   std::vector<double> latency, up_to;
@@ -40,7 +40,7 @@ struct Latencies {
   }
 };
 
-/// Of `cyclictest --histogram`: lines of a latency [us] and a count for each of its threads.
+/// Output of `cyclictest --histogram`: lines of a latency [us] and a count for each of its threads.
 Latencies ofCyclictest(const std::string& file, double period) {
   std::ifstream in(file);
   if (!in) {
@@ -88,7 +88,7 @@ Latencies ofLoop(const LoopTiming& timing) {
   return all;
 }
 
-/// What share of the wake-ups is later than that.
+/// The fraction of wake-ups with a higher latency.
 Series curve(const Latencies& all) {
   Series series{all.name, {}, {}};
   for (std::size_t i = 0; i < all.latency.size(); ++i) {

@@ -1,5 +1,5 @@
-// What a step of the whole twin costs over the number of its systems: rotors of a scene, rotors of
-// an ensemble, double pendulums of an ensemble.
+// Cost of a step of the whole twin as a function of the number of its systems: rotors of a scene,
+// rotors of an ensemble, double pendulums of an ensemble.
 #include <fmt/format.h>
 #include <malloc.h>
 #include <yaml-cpp/yaml.h>
@@ -117,15 +117,16 @@ std::string plain(double x) {
 }
 
 void writeTable(const std::vector<Kind>& kinds) {
-  std::cout
-      << "The CPU time of a step of the whole twin, on one processor. Rotors of a scene are "
-         "systems of their own, each\nwith its audit; those of an ensemble are members of "
-         "one system, which runs beside them. All rotors share a\ndrive and run up. A step "
-         "takes time in proportion to the number of systems, and longer where they no longer"
-         "\nfit in the processor's caches. Memory is that of the twin when it is "
-         "built.\n\n"
-         "| twin | number | a step | middle half of the rounds | of each | times real time at "
-         "1 ms | memory |\n|---|---|---|---|---|---|---|\n";
+  std::cout << "The CPU time of a step of the whole twin, on one processor. Rotors of a scene are "
+               "separate systems, each\nwith its energy audit; those of an ensemble are samples of "
+               "one system, "
+               "which runs beside them. All rotors share a\ndrive and run up. The time is "
+               "proportional to the "
+               "number of systems, and longer if they do not\nfit in the processor's caches. "
+               "Memory is that of "
+               "the twin after its construction.\n\n"
+               "| twin | number | per step | interquartile range | per system | times real time at "
+               "1 ms | memory |\n|---|---|---|---|---|---|---|\n";
   for (const Kind& kind : kinds) {
     for (const Measurement& m : kind.measured) {
       std::cout << fmt::format(

@@ -1,6 +1,5 @@
 // A step of exactly a millisecond of the two pendulums of docs/benchmarks.md, with the energy
-// audit, by every explicit method: what it costs, its mean and its dearest, and what it gets wrong
-// over 100 s.
+// audit, by every explicit method: its mean and maximum cost, and its error over 100 s.
 #include <fmt/format.h>
 #include <time.h>
 
@@ -46,8 +45,8 @@ double nanoseconds() {
   return 1.0e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
 }
 
-/// Of each step of a run the least over the runs, so that what the machine does besides is left
-/// out; of these the largest.
+/// For each step of a run the minimum over the runs, which excludes other load of the machine; of
+/// these the maximum.
 double dearest(Twin& twin, int runs) {
   std::vector<double> least(kSteps, 1.0e9);
   for (int run = 0; run < runs; ++run) {
@@ -82,7 +81,7 @@ void compare(const std::string& name, const std::string& system, bool quick) {
   }
   const std::vector<StepCost> costs = stepCosts(stepped, quick ? Effort{3, 1.0} : Effort{25, 20.0});
   fmt::print(
-      "\n{}\n\n| integrator | ns a step | quartiles | dearest step | error over 100 s |\n"
+      "\n{}\n\n| integrator | ns per step | quartiles | slowest step | error over 100 s |\n"
       "|---|---|---|---|---|\n",
       name);
   for (std::size_t i = 0; i < kMethods.size(); ++i) {
@@ -105,7 +104,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const whirl_twin::DenormalsToZero denormals_to_zero;
-  whirl_twin::compare("Double pendulum, let go at (0.2, 0.3) rad",
+  whirl_twin::compare("Double pendulum, released at (0.2, 0.3) rad",
                       "model: double_pendulum, parameters: {mass1: 1, mass2: 1, length1: 1, "
                       "length2: 1}, initial: {theta1: 0.2, theta2: 0.3}",
                       quick);

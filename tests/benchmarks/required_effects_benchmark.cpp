@@ -1,5 +1,5 @@
-// What the twin takes for what a scene does not ask for: a bare rotor beside the shortest loop that
-// can be written for it, and what each effect costs once a scene switches it on.
+// Overhead of effects that a scene does not use: a bare rotor against the shortest loop that can be
+// written for it, and the cost of each effect once a scene enables it.
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
@@ -35,13 +35,13 @@ constexpr double kSpeed = 100.0;          // rad/s
 constexpr std::size_t kRotors = 1000;
 constexpr int kSettled = 5000;  // steps
 
-/// The product alone: the operator of std::complex also looks after infinities.
+/// The product alone: the operator of std::complex also handles infinities.
 Complex product(const Complex& a, const Complex& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
-/// The rotor as one would write it who needs nothing else: at constant speed z = x + i y and its
-/// rate go by their exact propagator, and the unbalance by a phasor that every step turns.
+/// A minimal hand-written rotor: at constant speed z = x + i y and its rate are advanced by their
+/// exact propagator, and the unbalance by a phasor rotated in every step.
 class HandWrittenRotor {
  public:
   HandWrittenRotor() {
@@ -127,7 +127,7 @@ class HandWrittenRotor {
   double work_ = 0.0;
 };
 
-/// A rotor of a scene: what it switches on, and how it is turned and stepped.
+/// A rotor of a scene: its effects, drive and integrator.
 struct Rotor {
   std::string name;
   std::string integrator = "exponential";
@@ -156,7 +156,7 @@ Stepped stepped(const Rotor& rotor) {
   return {rotor.name, [twin](int steps) { advance(*twin, steps); }};
 }
 
-/// Who compares two loops had better compare what comes out of them.
+/// The difference of the results of the two loops, which must agree.
 double disagreement() {
   constexpr int kSteps = 1000;
   HandWrittenRotor by_hand;
@@ -225,15 +225,17 @@ void writeBare(const Effort& effort) {
                              cost.median / costs[0].median);
   };
   std::cout << fmt::format(
-      "An isotropic rotor of one disc at constant speed, steps of 1 ms. The hand-written loop has "
-      "the exact\npropagator of z = x + i y and nothing else, the second one the work done on the "
-      "rotor as well; their whirl\nafter 1 s is the twin's to {:.0e}. The twin's step also has "
-      "compensated sums, a shaft's angle that is as\nexact after a year as after a second, and a "
-      "look whether all is finite. An ensemble does without the audit\nand steps its rotors side "
-      "by "
-      "side in vectors.\n\n",
+      "An isotropic rotor of one disc at constant speed, steps of 1 ms. The hand-written loop "
+      "contains "
+      "only the exact\npropagator of z = x + i y, the second one also the work done on the rotor; "
+      "their "
+      "whirl\nafter 1 s agrees with the twin's to {:.0e}. The twin's step also has compensated "
+      "sums, a "
+      "shaft angle that is as\naccurate after a year as after a second, and a test for finite "
+      "values. An "
+      "ensemble has no energy audit\nand integrates its rotors side by side in SIMD vectors.\n\n",
       disagreement());
-  std::cout << "| one rotor, one step | ns | middle half of the rounds | times by hand |\n"
+  std::cout << "| one rotor, one step | ns | interquartile range | relative to hand-written |\n"
                "|---|---|---|---|\n";
   row("written by hand", costs[0], 1.0);
   row("written by hand, with audit", costs[1], 1.0);
@@ -242,7 +244,7 @@ void writeBare(const Effort& effort) {
   row(fmt::format("an ensemble of {}, each", kRotors), costs[4], static_cast<double>(kRotors));
 }
 
-/// The bare rotor, and what is switched on beside it.
+/// The bare rotor, and the effects added to it.
 struct Family {
   Rotor bare;
   std::vector<Rotor> effects;
@@ -294,10 +296,10 @@ void writeEffects(const Effort& effort) {
     }
   }
   const std::vector<StepCost> costs = stepCosts(all, effort);
-  std::cout << "\nThe same rotor, with what a scene switches on; each line beside the line "
-               "\"nothing\" above it, which is\nstepped and turned in the same way.\n\n"
-               "| switched on | method | ns a step | middle half of the rounds | more than "
-               "without, ns |\n|---|---|---|---|---|\n";
+  std::cout << "\nThe same rotor, with options of a scene; each row is compared with the row "
+               "\"nothing\" above it, which has the\nsame method and speed profile.\n\n"
+               "| option | method | ns per step | interquartile range | additional time, ns "
+               "|\n|---|---|---|---|---|\n";
   auto cost = costs.begin();
   for (const Family& family : every) {
     const double bare = cost->median;

@@ -1,5 +1,5 @@
-// What a step of a rotor costs: a shaft of 40 coordinates at constant speed and in a run-up, with
-// all of them and with eight shapes; beside it the Jeffcott rotor with more and more effects.
+// Cost of a rotor step: a shaft of 40 coordinates at constant speed and in a run-up, full-order and
+// with eight modes; for comparison the Jeffcott rotor with more and more effects.
 #include <benchmark/benchmark.h>
 #include <yaml-cpp/yaml.h>
 

@@ -1,5 +1,5 @@
-// What a step of every system of every shipped scene costs, with the implicit and the explicit
-// method that suit all of them, and with the one that `auto` chooses.
+// Cost of a step of every system of every shipped scene, with the implicit and the explicit method
+// that suit all of them, and with the choice of `auto`.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -20,7 +20,7 @@ void steps(benchmark::State& state, Scene scene, const std::string& integrator) 
   Twin twin(withStepsChosen(scene));
   for (auto _ : state) {
     twin.step();
-    // Starts over before a motion has died out or gone round too often.
+    // Restarts before a motion has decayed or rotated too far.
     if (twin.stepCount() == 20000) {
       twin.reset();
     }
@@ -34,7 +34,7 @@ void addScenes() {
   for (const auto& file : std::filesystem::directory_iterator(WHIRL_TWIN_SCENES)) {
     const Scene scene = readSceneFile(file.path());
     if (!scene.controllers.empty()) {
-      continue;  // of systems that may not stand alone; controller_sample_benchmark has them
+      continue;  // systems coupled to others; see controller_sample_benchmark
     }
     for (const SystemSpec& system : scene.systems) {
       Scene one = scene;

@@ -1,5 +1,5 @@
-// What a step costs who runs `twin simulate` with few samples, beside the step alone: CPU time of a
-// long run less that of a short one, so that start, calibration and printing are left out.
+// Cost of a step in `twin simulate` with few samples, compared with the step alone: CPU time of a
+// long run minus that of a short one, which excludes start, calibration and printing.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -61,7 +61,7 @@ const std::vector<Case> kCases{
      "{mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 0.2, theta2: 0.3}, "
      "integrator: dormand_prince_8}}}"}};
 
-/// User and system time [s] of a command that must succeed; what it prints is thrown away.
+/// User and system time [s] of a command that must succeed; its output is discarded.
 double cpuTime(const std::vector<std::string>& command) {
   std::vector<char*> words;
   for (const std::string& word : command) {
@@ -104,7 +104,8 @@ void compare(const std::string& twin, bool quick) {
   const int seconds = quick ? 40 : 4000;
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / fmt::format("twin_simulate_{}.yaml", ::getpid());
-  fmt::print("| scene | the step, ns | `twin simulate`, ns a step | times |\n|---|---|---|---|\n");
+  fmt::print(
+      "| scene | the step, ns | `twin simulate`, ns per step | ratio |\n|---|---|---|---|\n");
   for (const Case& it : kCases) {
     std::ofstream(file) << it.scene;
     Twin alone(readScene(YAML::Load(it.scene), "benchmark"));

@@ -26,7 +26,7 @@ double timed(const Stepped& one, int steps) {
   return cpuNanoseconds() - start;
 }
 
-/// How many fill a turn. Of two, the shorter: the first steps prepare things.
+/// Number of steps in a round. Of two trials the shorter: the first steps include preparation.
 int stepsOfTurn(const Stepped& one, double turn_ms) {
   int steps = 1;
   while (std::min(timed(one, steps), timed(one, steps)) < 1.0e6 * turn_ms) {
@@ -50,7 +50,7 @@ std::vector<StepCost> stepCosts(const std::vector<Stepped>& all, const Effort& e
   for (int round = 0; round < effort.rounds; ++round) {
     for (std::size_t turn = 0; turn < all.size(); ++turn) {
       const std::size_t i = (turn + static_cast<std::size_t>(round)) % all.size();
-      all[i].advance(1 + steps[i] / 10);  // not counted: what it needs comes into the caches
+      all[i].advance(1 + steps[i] / 10);  // not counted: warms the caches
       costs[i].push_back(timed(all[i], steps[i]) / steps[i]);
     }
   }

@@ -1,5 +1,5 @@
-// The CPU time of a step of several things that take turns, so that all of them see the same
-// machine.
+// The CPU time of a step of several systems, measured in interleaved rounds, so that all run under
+// the same load of the machine.
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@ struct StepCost {
 
 struct Effort {
   int rounds;
-  double turn_ms;  ///< CPU time of a turn, at least
+  double turn_ms;  ///< minimum CPU time of a round
 };
 
 /// Of each, in their order.

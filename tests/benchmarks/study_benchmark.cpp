@@ -1,5 +1,5 @@
-// What a study costs: run-ups of a Jeffcott rotor of 20 s at 1 kHz, of which the peak is measured,
-// by one worker and by as many as there are processors; and what of it goes into writing blocks.
+// Cost of a study: run-ups of a Jeffcott rotor of 20 s at 1 kHz, with the peak as the measure, by
+// one worker and by as many as there are processors; and the share of writing the blocks.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -85,7 +85,7 @@ void compare(bool quick) {
   const Study study = studyOf(folder, 1000 * blocks);
   const double scale = kMillion / static_cast<double>(study.points());
   fmt::print(
-      "| workers | CPU time of a million, s | elapsed, s | as fast as one, a worker |\n"
+      "| workers | CPU time of a million, s | elapsed, s | parallel efficiency |\n"
       "|---|---|---|---|\n");
   const unsigned most = std::max(2U, std::thread::hardware_concurrency());
   double alone = 0.0;
@@ -102,8 +102,10 @@ void compare(bool quick) {
   rusage used{};
   ::getrusage(RUSAGE_SELF, &used);
   fmt::print(
-      "\nA block of 1000 takes {:.1f} ms of the processor, of which its rows take {:.2f} and its "
-      "file, which is on the disk before it has its name, {:.2f} ({:.1f} ms by the clock). Memory: "
+      "\nA block of 1000 takes {:.1f} ms of CPU time, of which formatting its rows takes {:.2f} ms "
+      "and writing "
+      "its file, which is complete on the disk before it gets its name, {:.2f} ms ({:.1f} ms "
+      "elapsed). Memory: "
       "{} MB at most.\n",
       1.0e3 * block, 1.0e3 * (rows.cpu - file.cpu), 1.0e3 * file.cpu, 1.0e3 * file.wall,
       used.ru_maxrss / 1024);

@@ -1,7 +1,6 @@
-// How long after a change of a parameter, or of the speed, the monitor has its verdict: wall time,
-// from the message to the margin, with the thread that judges asleep before. What ROS or LCM takes
-// to bring the one and to carry the other comes on top, and what the node waits between looks (up
-// to 0.2 ms).
+// Delay of the monitor's verdict after a change of a parameter, or of the speed: wall time from the
+// message to the margin, with the evaluating thread asleep before. The transport of both messages
+// by ROS or LCM and the polling period of the node (up to 0.2 ms) are not included.
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
@@ -32,14 +31,14 @@ constexpr const char* kRub =
 constexpr int kTrials = 200;
 constexpr auto kRest = std::chrono::milliseconds(5);
 
-/// A monitor as the node has it, its first verdict and critical speeds behind it.
+/// A monitor as in the node, after its first verdict and critical speeds.
 class Watched {
  public:
   explicit Watched(const char* text)
       : twin_(readScene(YAML::Load(text), "benchmark")),
         observer_(twin_),
         record_(twin_.layout().size),
-        monitor_(build(twin_.scene()), AlarmSettings(), Judging::Mode::kBeside) {
+        monitor_(build(twin_.scene()), AlarmSettings(), EvaluationQueue::Mode::kConcurrent) {
     twin_.step();
     twin_.write(record_.data());
     observer_.observe(record_.data());
@@ -80,7 +79,7 @@ class Watched {
     do {
       std::this_thread::sleep_for(kRest);
       monitor_.takeMargins();
-    } while (monitor_.judging());
+    } while (monitor_.evaluating());
   }
 
   Twin twin_;
@@ -109,7 +108,7 @@ void measure(const char* system, const char* change, const char* text, double (W
 int main() {
   using whirl_twin::Watched;
   fmt::print(
-      "| system | change of | shortest | median | 95 of 100 below |\n|---|---|---|---|---|\n");
+      "| system | change of | shortest | median | 95th percentile |\n|---|---|---|---|---|\n");
   for (const auto& [system, text] :
        {std::pair{"rotor, quartic", whirl_twin::kQuartic}, std::pair{"rub", whirl_twin::kRub}}) {
     whirl_twin::measure(system, "a parameter", text, &Watched::afterParameter);

@@ -1,4 +1,4 @@
-// What an actuator gives of what it is told, and when it says that it cannot.
+// Output of an actuator for a command, and its saturation flag.
 #include "control/actuator.h"
 
 #include <gtest/gtest.h>

@@ -177,7 +177,7 @@ TEST(DriveAngle, IsTheTwofoldIntegralOfTheAcceleration) {
     const long double now = static_cast<long double>(t) / 1e9L;
     long double expected_speed = 0.0L;
     long double expected_angle = 0.0L;
-    // theta = integral of (t - s) alpha(s) ds; Simpson's rule is exact for it between corners.
+    // theta = integral of (t - s) alpha(s) ds; Simpson's rule is exact for it between breakpoints.
     for (int k = 0; k < 3; ++k) {
       const long double a = std::min(now, corners[k]);
       const long double b = std::min(now, corners[k + 1]);

@@ -1,5 +1,5 @@
-// A drive's motion is continuous, keeps within its limits, goes through its moves in time, and can
-// be told a new speed at any instant.
+// A drive's motion is continuous, stays within its limits, completes its moves in time, and accepts
+// a new target speed at any instant.
 #include "control/drive.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include <tuple>
 #include <vector>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace drive_test {
@@ -319,7 +319,7 @@ TEST(Drive, SentIntoABandGoesToItsEdge) {
   EXPECT_EQ(drive.targetSpeed(), 54.0);
 }
 
-// In the middle of a band, on its way up: it goes on, and comes back at full acceleration.
+// In the middle of a band, on its way up: it continues, and returns at full acceleration.
 TEST(Drive, StopsPastItsBands) {
   Drive drive(0.0, 0.0, {{100.0, 5.0, 2.0, 0.0}}, 0, ExclusionBands({{54, 66}}));
   std::int64_t ms = 0;
@@ -344,7 +344,7 @@ TEST(Drive, BadProfilesAreNamed) {
   const auto message = [](double speed, double angle, const std::vector<SpeedMove>& moves) {
     try {
       const Drive drive(speed, angle, moves);
-    } catch (const Refusal& error) {
+    } catch (const InputError& error) {
       return std::string(error.what());
     }
     return std::string();
@@ -355,7 +355,7 @@ TEST(Drive, BadProfilesAreNamed) {
   EXPECT_EQ(message(2e6, 0.0, {}), "drive: speed must be within +-1e6 rad/s, found 2000000");
   EXPECT_NE(message(0.0, NAN, {}).find("angle"), std::string::npos);
   EXPECT_NE(message(0.0, 0.0, {{1e5, 1e-5, 0.0, 0.0}}).find("at most 1e9 s"), std::string::npos);
-  EXPECT_THROW(Drive(0.0, 0.0, {{60.0, 1.0, 0.0, 0.0}}, 0, ExclusionBands({{54, 66}})), Refusal);
+  EXPECT_THROW(Drive(0.0, 0.0, {{60.0, 1.0, 0.0, 0.0}}, 0, ExclusionBands({{54, 66}})), InputError);
 }
 
 }  // namespace drive_test

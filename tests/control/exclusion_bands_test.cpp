@@ -1,5 +1,5 @@
-// Bands that a shaft does not stay in: where targets go, merging, that bands are crossed at full
-// acceleration only, whatever is commanded when, and that plans allocate nothing.
+// Barred speed ranges of a shaft: shifting of targets, merging, crossing at full acceleration only
+// for any sequence of commands, and that plans allocate nothing.
 #include "control/exclusion_bands.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <random>
 
 #include "../realtime/allocation_guard.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace exclusion_bands_test {
@@ -32,7 +32,7 @@ SpeedSegment at(const BandedChange& plan, double time) {
   return {0.0, plan.speeds[plan.count - 1], 0.0, 0.0};
 }
 
-/// Time [s] that a plan is inside a band, by 20000 looks at it.
+/// Time [s] that a plan is inside a band, from 20000 samples.
 double timeInside(const BandedChange& plan, const SpeedBand& band) {
   constexpr int kLooks = 20000;
   int inside = 0;
@@ -117,7 +117,7 @@ TEST(ExclusionBands, AreLeftByTheEdgeThatIsReachedFirst) {
   EXPECT_DOUBLE_EQ(down.speeds[0], 50.0);
   const BandedChange up = bands.plan(63.0, 0.0, {0.0, 5.0, 2.0, 0.0});
   EXPECT_DOUBLE_EQ(up.speeds[0], 69.0);
-  // At full acceleration it goes on, wherever it is called back to.
+  // At full acceleration it continues, whatever the new target.
   const BandedChange on = bands.plan(55.0, 5.0, {20.0, 5.0, 2.0, 0.0});
   EXPECT_DOUBLE_EQ(on.speeds[0], 66.0 + 6.25);
   // So does what cannot stop any more.
@@ -200,11 +200,11 @@ TEST(ExclusionBands, HoldNothingWhateverIsCommanded) {
 }
 
 TEST(ExclusionBands, RefuseWhatIsNoBand) {
-  EXPECT_THROW(ExclusionBands({{5, 4}}), Refusal);
-  EXPECT_THROW(ExclusionBands({{0, 4}}), Refusal);
-  EXPECT_THROW(ExclusionBands({{kNone, 4}}), Refusal);
-  EXPECT_THROW(ExclusionBands({{1, 1e7}}), Refusal);
-  EXPECT_THROW(ExclusionBands({{1, 2}}, 0.6), Refusal);
+  EXPECT_THROW(ExclusionBands({{5, 4}}), InputError);
+  EXPECT_THROW(ExclusionBands({{0, 4}}), InputError);
+  EXPECT_THROW(ExclusionBands({{kNone, 4}}), InputError);
+  EXPECT_THROW(ExclusionBands({{1, 1e7}}), InputError);
+  EXPECT_THROW(ExclusionBands({{1, 2}}, 0.6), InputError);
 }
 
 TEST(ExclusionBands, AllocateNothing) {

@@ -1,5 +1,5 @@
-// Shaped commands: what they leave of an oscillation they know, of one near it, and of a crane's
-// load that they move.
+// Shaped commands: the residual vibration at the design frequency, near it, and of the load of a
+// crane.
 #include "control/input_shaper.h"
 
 #include <gtest/gtest.h>

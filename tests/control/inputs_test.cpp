@@ -1,5 +1,5 @@
 // Inputs of a system: the phase of a harmonic after a billion steps, tables at and between their
-// instants, corners, commands and their time-out, what is refused, and no allocation.
+// instants, breakpoints, commands and their time-out, errors, and no allocation.
 #include "control/inputs.h"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(Inputs, LinearTableGoesStraightFromInstantToInstant) {
   EXPECT_DOUBLE_EQ(inputs.piece(0, kSecond).slope, 2.0);
 }
 
-// i' = 100 (held - i): as far as the times since go, whatever steps begin in between.
+// i' = 100 (held - i): it depends on the elapsed times only, whatever steps begin in between.
 TEST(Inputs, BehindALagGoesOnFromInstantToInstant) {
   Inputs inputs({InputSignal::controlled(100.0)});
   inputs.begin(0);

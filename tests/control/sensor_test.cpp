@@ -1,4 +1,4 @@
-// Sensors: noise that repeats, a filter that is exact, clipping, resolution; pulses of a keyphasor.
+// Sensors: reproducible noise, an exact filter, clipping, resolution; pulses of a keyphasor.
 #include "control/sensor.h"
 
 #include <gtest/gtest.h>

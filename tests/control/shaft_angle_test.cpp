@@ -1,4 +1,4 @@
-// The phase of a shaft is as exact after months as after a second, against a reference of 100
+// The phase of a shaft is as accurate after months as after a second, against a reference of 100
 // decimal digits.
 #include "control/shaft_angle.h"
 
@@ -19,7 +19,7 @@ using Exact = boost::multiprecision::cpp_bin_float_100;
 
 const Exact kTwoPi = boost::math::constants::two_pi<Exact>();
 
-// The header promises 3e-15 rad for one call.
+// The error bound in the header is 3e-15 rad for one call.
 constexpr double kPromised = 3e-15;
 
 double error(const ShaftAngle& angle, const Exact& expected) {
@@ -88,12 +88,14 @@ TEST(SteadyTurn, IsExactFor250YearsForwardsAndBackwards) {
 
     const Exact expected = kTwoPi * from.turns + Exact(from.remainder) +
                            Exact(speed) * (Exact(nanoseconds) / Exact(1000000000) + Exact(lead));
-    // The header promises 2.5e-15 rad. From zero the sum with the start is exact: 1.1e-15 rad.
+    // The error bound in the header is 2.5e-15 rad. From zero the sum with the start is exact:
+    // 1.1e-15 rad.
     const double promised = from.remainder == 0.0 ? 1.1e-15 : 2.5e-15;
     ASSERT_LT(std::abs(error(to, expected)), promised) << speed << " rad/s, " << nanoseconds;
     ASSERT_TRUE(remainderInRange(to)) << to.remainder;
 
-    // The double-double route promises 3e-15 rad, and shares no arithmetic with this one.
+    // The double-double route has an error bound of 3e-15 rad, and shares no arithmetic with this
+    // one.
     const ShaftAngle other = advance(from, speed, 0.0, 0.0, later(splitTime(nanoseconds), lead));
     ASSERT_LT(std::abs(static_cast<double>(to.turns - other.turns) * 2.0 * M_PI +
                        (to.remainder - other.remainder)),
@@ -113,7 +115,7 @@ TEST(SteadyTurn, StartsAtItsAngleToTheLastBit) {
 }
 
 TEST(SteadyTurn, StaysWithinOneTurnAtTheEndOfEachTurn) {
-  // 1000 turns/s within an ulp or two: every millisecond the phase stands just beside a whole turn.
+  // 1000 turns/s within an ulp or two: every millisecond the phase is just beside a whole turn.
   const double speed = 2000.0 * M_PI;
   for (const double near : {std::nextafter(speed, 0.0), speed, std::nextafter(speed, 1e9)}) {
     for (const double start : {0.0, 1e-16, std::nextafter(2.0 * M_PI, 0.0)}) {
@@ -154,7 +156,7 @@ TEST(ShaftAngle, ManySmallAdvancesAddUpToOneLargeOne) {
   }
   const ShaftAngle once = advance({}, 314.159, 1000003000);
   EXPECT_EQ(stepped.turns, once.turns);
-  // A thousand roundings of up to the promised size each.
+  // A thousand roundings of up to the error bound each.
   EXPECT_NEAR(stepped.remainder, once.remainder, 1000 * kPromised);
 }
 

@@ -1,5 +1,5 @@
-// Set-points that a motor can follow: the fastest within its limits where those hang on the speed,
-// and past bands at all that it has.
+// Set-points that a motor can follow: time-optimal within limits that depend on the speed, and
+// through bands at the motor's full torque.
 #include "control/speed_planner.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ ShaftLimits falling() {
   return {Motor::falling(0.9, 400.0, 2.0e-4), 0.02, 0.1, 30.0};
 }
 
-// With limits that do not hang on the speed it is the plan that is known: (v0, a0 -> v1; A, J).
+// With limits independent of the speed it is the known plan: (v0, a0 -> v1; A, J).
 TEST(SpeedPlanner, IsTheFastestChangeOfConstantLimits) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -70,8 +70,8 @@ TEST(SpeedPlanner, AsksOfAMotorWhatItHas) {
   }
 }
 
-// At 0 rad/s it has 0.81 N m / 0.02 kg m^2, but may use 30; near 300 rad/s 7 are left. The least of
-// all the way would do for the whole way, and take far longer.
+// At 0 rad/s the motor allows 0.81 N m / 0.02 kg m^2, limited to 30; near 300 rad/s 7 remain. The
+// minimum over the whole speed range would also be feasible, and far slower.
 TEST(SpeedPlanner, UsesWhatTheMotorHasWhereItHasIt) {
   const ShaftLimits limits = falling();
   const SpeedPlanner planner(limits, 100.0, {});
@@ -103,7 +103,7 @@ TEST(SpeedPlanner, CrossesABandAtAllThatItHas) {
   for (int k = 0; k <= 20000; ++k) {
     const SpeedSegment there = cursor.at(plan, plan.duration * k / 20000);
     if (there.speed > 190.0 + 1e-9 && there.speed < 215.0 - 1e-9) {
-      // A(w) is one of 24 steps up to 390 rad/s, each the least of its 16.2 rad/s.
+      // A(w) is one of 24 steps up to 390 rad/s, each the minimum over its 16.2 rad/s.
       ASSERT_GE(there.acceleration, limits.rise(there.speed + 16.3)) << there.speed;
       ++inside;
     }

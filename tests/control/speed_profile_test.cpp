@@ -19,7 +19,7 @@ SpeedSegment endOf(const SpeedSegment& piece) {
           piece.acceleration + t * piece.jerk, piece.jerk};
 }
 
-// Largest speed, in size, that occurs in the working of a change: the scale of its rounding.
+// Largest absolute speed in the computation of a change: the scale of its rounding.
 double speedScale(double speed, double acceleration, const SpeedMove& move) {
   return std::abs(speed) + std::abs(move.speed) +
          acceleration * acceleration / (2.0 * move.max_jerk);
@@ -74,7 +74,8 @@ TEST(SpeedChange, StartingAboveTheAccelerationLimitComesDownToItAtFullJerk) {
 }
 
 TEST(SpeedChange, BeyondReachReversesTheAcceleration) {
-  // Speeding up at 10 rad/s^2, the least that can be had at 10 rad/s^3 is 5 rad/s; 0 is asked for.
+  // Accelerating at 10 rad/s^2, the lowest speed reachable with 10 rad/s^3 is 5 rad/s; 0 is
+  // requested.
   const SpeedChange change = planSpeedChange(0.0, 10.0, {0.0, 100.0, 10.0, 0.0});
   ASSERT_EQ(change.count, 2u);
   EXPECT_DOUBLE_EQ(change.segments[0].jerk, -10.0);

@@ -1,5 +1,5 @@
-// Transfer functions as states: their samples are those of the difference equation, and their
-// frequency response is what it says.
+// Transfer functions in state space: their samples satisfy the difference equation, and their
+// frequency response is that of the transfer function.
 #include "control/transfer_function.h"
 
 #include <gtest/gtest.h>

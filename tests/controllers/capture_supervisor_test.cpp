@@ -1,4 +1,4 @@
-// A shaft that a resonance holds: when it counts as held, what is done about it, and for how often.
+// Resonance capture of a shaft: its detection, the response to it, and the number of attempts.
 #include "controllers/capture_supervisor.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ CaptureSupervisor::Look at(double speed, bool at_limit = true, bool arrived = fa
   return {speed, 300.0, 10.0, at_limit, arrived};
 }
 
-/// Looks at a speed that rises [rad/s^2]; the first order of so many samples.
+/// Feeds a speed that rises [rad/s^2]; returns the first order within so many samples.
 Order first(CaptureSupervisor& s, double from, double rise, int samples, bool at_limit = true) {
   for (int k = 0; k < samples; ++k) {
     const Order order = s.look(at(from + rise * kPeriod * k, at_limit));

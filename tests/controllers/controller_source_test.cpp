@@ -1,4 +1,4 @@
-// Controllers that are not built in: when they are asked for, and which of them are taken.
+// Controllers that are not built in: when they are requested, and which are accepted.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// What holds for every controller: it says what a scene needs to name it, its linear law is what it
-// does to small changes, a reset forgets, another takes over from it, and a sample allocates
-// nothing.
+// Properties of every controller: it lists what a scene needs to specify, its linearization matches
+// its response to small changes, a reset clears its state, transfer to another one is bumpless, and
+// a sample allocates nothing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ class RandomSamples {
   explicit RandomSamples(const ControllerPlan& plan)
       : values_(plan.measured, 0.0), rate_(plan.rate) {}
 
-  /// The first is 0: what is before it is taken to have been as it is.
+  /// The first is 0: the input before it is assumed constant.
   ControlSample next() {
     if (index_ > 0) {
       for (double& value : values_) {
@@ -82,7 +82,7 @@ TEST_P(EveryController, ActsOnSmallChangesAsItsLinearLawSays) {
     }
     const auto outputs = static_cast<Eigen::Index>(example.plan.outputs);
     RandomSamples samples(example.plan);
-    // About what it gives for 0: a set-point is nothing small.
+    // Relative to the output for 0: a set-point is not small.
     const auto resting = build(example);
     RandomSamples nothing(example.plan);
     const std::vector<double> zero(example.plan.measured, 0.0);

@@ -1,4 +1,4 @@
-// An example or more of each controller, for the tests that hold for all of them.
+// One or more examples of each controller, for the tests that apply to all of them.
 #pragma once
 
 #include <map>
@@ -67,7 +67,7 @@ inline ControllerPlan planOfTwoMasses(double rate, std::size_t measured) {
   return plan;
 }
 
-/// Weights of an lqr of twoMasses(), with those of its lqg for so many measured.
+/// Weights of an lqr of twoMasses(), with those of its lqg for `measured` quantities.
 inline Settings regulatorOfTwoMasses(const std::string& cost, std::size_t measured = 0) {
   Settings settings = matrices({{"q", row({1, 2, 0.1, 0.2})}, {"r", row({0.3, 0.4})}});
   settings.choices["cost"] = cost;

@@ -1,5 +1,5 @@
-// A lead: what does not change it holds back by its gain, at once it acts by more, and it is
-// refused a prewarp beyond half of its rate.
+// A lead compensator: its static and initial gain, and the error for a prewarp frequency above half
+// of its rate.
 #include <gtest/gtest.h>
 
 #include "example_controllers.h"
@@ -24,8 +24,8 @@ TEST(Lead, ActsAtOnceByThePoleOverTheZero) {
 
 TEST(Lead, IsRefusedAPrewarpBeyondHalfOfTheRate) {
   const auto [name, text] =
-      refusal("lead", {{"gain", 2.0}, {"zero", 1.0}, {"pole", 10.0}, {"prewarp", 400.0}}, {},
-              planOf(100.0, 1));
+      inputError("lead", {{"gain", 2.0}, {"zero", 1.0}, {"pole", 10.0}, {"prewarp", 400.0}}, {},
+                 planOf(100.0, 1));
   EXPECT_EQ(name, "prewarp");
   EXPECT_EQ(text, "must be < 314.159 rad/s, half of the rate, found 400");
 }

@@ -1,4 +1,4 @@
-// Linear laws by matrices and by a transfer function: their samples, and what is refused where.
+// Linear controllers by matrices and by a transfer function: their samples, and their errors.
 #include <gtest/gtest.h>
 
 #include "example_controllers.h"
@@ -45,7 +45,7 @@ TEST(Linear, RefusesWhatDoesNotFitTogether) {
   const MatrixXd two = MatrixXd::Identity(2, 2);
   const MatrixXd two_by_three = MatrixXd::Ones(2, 3);
   const auto refused = [&](std::map<std::string, MatrixXd> given) {
-    const auto [name, text] = refusal("linear", {}, matrices(std::move(given)), plan);
+    const auto [name, text] = inputError("linear", {}, matrices(std::move(given)), plan);
     return name + ": " + text;
   };
   EXPECT_EQ(

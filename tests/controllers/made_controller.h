@@ -1,4 +1,4 @@
-// Controllers as a scene makes them: what it does not give has its default.
+// Controllers made as by a scene: parameters that are not given have their defaults.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -42,11 +42,11 @@ inline std::unique_ptr<Controller> made(const std::string& name, const Parameter
   return info->make(values, settings, plan);
 }
 
-/// Parameter and text of the refusal; empty if it is made.
-inline std::pair<std::string, std::string> refusal(const std::string& name,
-                                                   const ParameterValues& given,
-                                                   const Settings& settings,
-                                                   const ControllerPlan& plan) {
+/// Parameter and text of the error; empty if it is made.
+inline std::pair<std::string, std::string> inputError(const std::string& name,
+                                                      const ParameterValues& given,
+                                                      const Settings& settings,
+                                                      const ControllerPlan& plan) {
   try {
     made(name, given, settings, plan);
   } catch (const SetupError& error) {

@@ -1,6 +1,6 @@
-// The synchronous notch: the poles it adds, by phase and without, against those of control.md's
-// levitated mass; what it leaves of the current at the shaft's speed, and where the rotor then
-// turns; what it does while the speed changes or is lost; pairs and single probes; what is refused.
+// The synchronous notch: the poles that it adds, with phase and without, against those of
+// control.md's levitated mass; the residual synchronous current, and the centre of rotation of the
+// rotor then; changes and loss of the speed; pairs and single probes; errors.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +54,7 @@ Complex poleNear(double speed, double phase, double period) {
   return nearest;
 }
 
-/// As samples become dense: what is left of the error is of third order.
+/// In the limit of short sampling periods: the remaining error is of third order.
 Complex continuousPoleNear(double speed, double phase) {
   constexpr double kPeriod = 4e-3;
   const Complex one = poleNear(speed, phase, kPeriod);
@@ -106,7 +106,7 @@ struct Unbalanced {
   double amplitude;  ///< [m], likewise
 };
 
-/// The mass with its centre of mass 1 m off turns with the shaft, x'' = x + u + w^2 e^(j w t).
+/// The mass with its centre of mass 1 m off rotates with the shaft, x'' = x + u + w^2 e^(j w t).
 Unbalanced unbalanced(double speed, double notch_rate) {
   constexpr double kPeriod = 0.01;
   const double phase = notch_rate > 0.0 ? -std::arg(sensitivity(speed)) : 0.0;
@@ -147,7 +147,7 @@ TEST(Notch, TakesTheCurrentAtTheShaftsSpeedAway) {
   }
 }
 
-/// What a gain of -1 gives for y = (1, 0) that turns with a shaft: 1 without a notch.
+/// Output of a gain of -1 for y = (1, 0) rotating with a shaft: 1 without a notch.
 class TurningProbe {
  public:
   explicit TurningProbe(double hold)
@@ -174,7 +174,7 @@ TEST(Notch, HoldsWhileTheSpeedChangesFast) {
   for (int k = 0; k < 150; ++k) {
     u = probe.next(10.0);
   }
-  // e^-1.5 is left; 10 * 0.1 * 1 / s is the fastest change at which it learns.
+  // e^-1.5 remains; 10 * 0.1 * 1 / s is the fastest change at which it adapts.
   EXPECT_NEAR(u, std::exp(-1.5), 0.01);
   double speed = 10.0;
   const double before = u;
@@ -219,15 +219,16 @@ TEST(Notch, GoesByATableOfPhases) {
 }
 
 TEST(Notch, RefusesWhatCannotBe) {
-  EXPECT_EQ(refusal("pid", levitation(0.01, 0.0), {}, planOf(100.0, 3)).first, "notch_axes");
-  EXPECT_EQ(refusal("pid", levitation(100.0, 0.0), {}, planOf(100.0, 2)).first, "notch_rate");
+  EXPECT_EQ(inputError("pid", levitation(0.01, 0.0), {}, planOf(100.0, 3)).first, "notch_axes");
+  EXPECT_EQ(inputError("pid", levitation(100.0, 0.0), {}, planOf(100.0, 2)).first, "notch_rate");
   Settings settings;
   settings.tables["notch_phases"] = {{{{"speed", 1.0}, {"phase", 0.2}}, {}},
                                      {{{"speed", 1.0}, {"phase", 1.0}}, {}}};
-  EXPECT_EQ(refusal("pid", levitation(0.01, 0.0), settings, planOf(100.0, 2)).first,
+  EXPECT_EQ(inputError("pid", levitation(0.01, 0.0), settings, planOf(100.0, 2)).first,
             "notch_phases[1].speed");
   settings.tables["notch_phases"].pop_back();
-  EXPECT_EQ(refusal("pid", levitation(0.01, 0.3), settings, planOf(100.0, 2)).first, "notch_phase");
+  EXPECT_EQ(inputError("pid", levitation(0.01, 0.3), settings, planOf(100.0, 2)).first,
+            "notch_phase");
 }
 
 }  // namespace notch_test

@@ -1,5 +1,6 @@
-// The PID law: overshoot and settling of a saturated motor with and without anti-windup, no kick by
-// the first sample or the set-point, no state without a gain, what the filter does, axes apart.
+// The PID controller: overshoot and settling of a saturated motor with and without anti-windup, no
+// kick by the first sample or the set-point, no state without a gain, the derivative filter,
+// independent axes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -173,17 +174,17 @@ TEST(Pid, KeepsItsIntegralWhereItsGainsChange) {
 }
 
 TEST(Pid, RefusesAGainBesideATable) {
-  EXPECT_EQ(refusal("pid", {{"kd", 1.0}}, gainsOverSpeed(), planOf(20.0, 1)).first, "kd");
+  EXPECT_EQ(inputError("pid", {{"kd", 1.0}}, gainsOverSpeed(), planOf(20.0, 1)).first, "kd");
 }
 
 TEST(Pid, RefusesUnequalCounts) {
   ControllerPlan plan = planOf(20.0, 2);
   plan.measured = 3;
-  EXPECT_NE(refusal("pid", {{"kp", 1.0}}, {}, plan).second.find("3 measured, 2 acted on"),
+  EXPECT_NE(inputError("pid", {{"kp", 1.0}}, {}, plan).second.find("3 measured, 2 acted on"),
             std::string::npos);
 }
 
-/// What a law would give of sample 400, and what it gives after other numbers are put in.
+/// Output at sample 400 without a change of parameters, and after one.
 std::pair<double, double> acrossChange(const ParameterValues& before, const ParameterValues& after,
                                        const std::function<double(int)>& measured) {
   const ControllerPlan plan = planOf(100.0, 1);
@@ -204,7 +205,7 @@ std::pair<double, double> acrossChange(const ParameterValues& before, const Para
   return {expected, u};
 }
 
-// In the middle of a motion, shown the same once more; of the derivative, on a ramp.
+// In the middle of a motion, with a repeated sample; for the derivative term, on a ramp.
 TEST(Pid, HasNoBumpWhereItsGainsAreChanged) {
   const ParameterValues before{
       {"kp", 2.0}, {"ki", 5.0}, {"kd", 0.1}, {"derivative_time", 0.05}, {"setpoint", 0.3}};

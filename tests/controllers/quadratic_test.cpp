@@ -1,6 +1,6 @@
-// Regulators of least cost: the gain of a double integrator in closed form, least cost among the
-// gains beside it, as much by what is measured as by the states, an estimate that comes to the
-// states and keeps to them under limits, and what is refused where.
+// Linear-quadratic regulators: the gain of a double integrator in closed form, minimum cost among
+// neighbouring gains, the same cost from measurements as from the states, an estimate that
+// converges to the states also in saturation, and errors.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -93,7 +93,7 @@ TEST(Lqr, GoesByWhatIsMeasuredWhateverItsOrder) {
 TEST(Lqr, RefusesAtTheSettingThatIsWrong) {
   const auto refused = [](const std::string& name, const Settings& settings,
                           const ControllerPlan& plan) {
-    const auto [setting, text] = refusal(name, {}, settings, plan);
+    const auto [setting, text] = inputError(name, {}, settings, plan);
     return setting + ": " + text;
   };
   const ControllerPlan plan = planOfTwoMasses(20.0, 4);
@@ -149,7 +149,7 @@ TEST(Lqg, HasThePolesOfItsRegulatorAndOfItsFilter) {
   EXPECT_LT(all.values.cwiseAbs().maxCoeff(), 1.0);
 }
 
-// What is cut off an output never reached the plant: the prediction is without it.
+// The saturation residual of an output never acts on the plant: the prediction excludes it.
 TEST(Lqg, PredictsByWhatTheLimitsLeave) {
   constexpr double kRate = 50.0;
   ControllerPlan plan = planOfTwoMasses(kRate, 2);

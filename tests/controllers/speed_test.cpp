@@ -1,5 +1,5 @@
-// A shaft is brought to a speed by its motor: along the set-point, with no more torque than there
-// is, through a resonance that takes most of it; and a rotor of a scene on that motor.
+// Speed control of a shaft by its motor: along the set-point, within the available torque, through
+// a resonance that takes most of it; and a rotor of a scene on that motor.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ TEST(Speed, FollowsItsSetPointByWhatIsPlanned) {
     controller->update(sampleOf(&shaft.speed, k), &u);
     shaft.go(u, 1e-3);
   }
-  // 100/20 + 20/50 s; what is left is the drag of half a sample.
+  // 100/20 + 20/50 s; the residual is the drag of half a sample.
   EXPECT_NEAR(shaft.speed, 100.0, 1e-2);
 }
 
@@ -96,16 +96,16 @@ TEST(Speed, SaysWhatCannotBe) {
   const auto refused = [](const std::string& name, double value, bool avoids = false) {
     ParameterValues values = kShaft;
     values[name] = value;
-    return refusal("speed", values, motor(0.55, avoids), planOf(1000.0, 1)).first;
+    return inputError("speed", values, motor(0.55, avoids), planOf(1000.0, 1)).first;
   };
   EXPECT_EQ(refused("speed", 100.0), "");
   EXPECT_EQ(refused("speed", 600.0), "speed") << "its drag takes all torque at 550 rad/s";
   EXPECT_EQ(refused("speed", 60.0, true), "speed") << "in a band";
   EXPECT_EQ(refused("reserve", 1.0), "reserve");
-  EXPECT_EQ(refusal("speed", kShaft, motor(0.55), planOf(1000.0, 2)).first, "speed");
+  EXPECT_EQ(inputError("speed", kShaft, motor(0.55), planOf(1000.0, 2)).first, "speed");
   Settings falls = motor(1.0);
   falls.tables["motor"].push_back({{{"speed", 0.0}, {"torque", 0.5}}, {}});
-  EXPECT_EQ(refusal("speed", kShaft, falls, planOf(1000.0, 1)).first, "motor[1].speed");
+  EXPECT_EQ(inputError("speed", kShaft, falls, planOf(1000.0, 1)).first, "motor[1].speed");
 }
 
 // The critical speed, 200 rad/s, takes 0.4 N m of one that sits there. The motor has 0.6, 15

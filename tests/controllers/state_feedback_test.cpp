@@ -1,4 +1,4 @@
-// State feedback by a given gain takes it off what is measured beside the set-point.
+// State feedback by a given gain, on the deviation of the measurement from the set-point.
 #include <gtest/gtest.h>
 
 #include "example_controllers.h"
@@ -18,7 +18,7 @@ TEST(StateFeedback, TakesItsGainOff) {
 
 TEST(StateFeedback, IsRefusedAGainOfAnotherSize) {
   const auto [name, text] =
-      refusal("state_feedback", {}, matrices({{"gain", row({2, 3, 4})}}), planOf(10.0, 2, 1));
+      inputError("state_feedback", {}, matrices({{"gain", row({2, 3, 4})}}), planOf(10.0, 2, 1));
   EXPECT_EQ(name, "gain");
   EXPECT_EQ(text, "must be 1 x 2, a row per output, a column per measured signal, found 1 x 3");
 }

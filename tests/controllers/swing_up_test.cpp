@@ -1,5 +1,5 @@
-// Swing-up by energy: as many swings as the acceleration of the pivot allows, a torque-limited
-// pendulum swung up and caught from anywhere, a cart brought back with its pendulum upright, and
+// Swing-up by energy: the number of swings for the acceleration of the pivot, a torque-limited
+// pendulum swung up and caught from any state, a cart returned with its pendulum upright, and
 // hysteresis of the catch.
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ Settings held(const std::vector<double>& gain, const std::string& by) {
   return settings;
 }
 
-/// How often it turns back before it has the energy of the upright, pivot accelerated up to n g.
+/// Number of reversals before it has the energy of the upright, with pivot acceleration up to n g.
 int swingsBy(double n) {
   constexpr double kPeriod = 1e-3;
   ParameterValues values = swinging(n, 1e4);
@@ -75,7 +75,7 @@ int swingsBy(double n) {
   return -1;
 }
 
-// The least acceleration for 1, 2, 3, 4 and 5 swings, in g (Astrom and Furuta 2000): 4/3,
+// The smallest acceleration for 1, 2, 3, 4 and 5 swings, in g (Astrom and Furuta 2000): 4/3,
 // 1/sqrt(3), 0.38807, 0.29468, 0.23674.
 TEST(SwingUp, TakesAsManySwingsAsTheAccelerationAllows) {
   const double least[] = {4.0 / 3.0, 1.0 / std::sqrt(3.0), 0.38807, 0.29468, 0.23674};
@@ -154,7 +154,7 @@ TEST(SwingUp, RefusesWhatDoesNotFit) {
   const ControllerPlan plan = planOf(100.0, 2, 1);
   const auto refused = [&](ParameterValues values, const std::vector<double>& gain,
                            const ControllerPlan& around) {
-    return refusal("swing_up", values, held(gain, "torque"), around).first;
+    return inputError("swing_up", values, held(gain, "torque"), around).first;
   };
   EXPECT_EQ(refused(swinging(1.0, 10.0), {1.0}, plan), "gain");
   EXPECT_EQ(refused(swinging(1.0, 10.0), {1.0}, planOf(100.0, 1, 1)), "gain");

@@ -1,19 +1,20 @@
-#include "estimation/clock_watch.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+
+#include "estimation/clock_offset_estimator.h"
 
 namespace whirl_twin {
 namespace clock_watch_test {
 
 constexpr std::int64_t kEpoch = 1'750'000'000'000'000'000;  // ns
 
-/// The machine's clock is `offset` [s] ahead at first and gains `drift`; messages take 1 ms and,
-/// most of them, some more.
-ClockWatch watched(double offset, double drift, std::int64_t machine_epoch, double duration) {
-  ClockWatch watch;
+/// The plant's clock is `offset` [s] ahead at first and gains `drift`; messages take 1 ms and, most
+/// of them, some more.
+ClockOffsetEstimator watched(double offset, double drift, std::int64_t machine_epoch,
+                             double duration) {
+  ClockOffsetEstimator watch;
   std::mt19937 random(5);
   std::exponential_distribution<double> delay(1.0 / 0.004);
   for (double t = 0.0; t < duration; t += 0.05) {
@@ -24,23 +25,23 @@ ClockWatch watched(double offset, double drift, std::int64_t machine_epoch, doub
   return watch;
 }
 
-TEST(ClockWatch, TellsOffsetAndDriftThroughDelays) {
-  const ClockWatch watch = watched(0.25, 1.0e-4, kEpoch, 100.0);
+TEST(ClockOffsetEstimator, TellsOffsetAndDriftThroughDelays) {
+  const ClockOffsetEstimator watch = watched(0.25, 1.0e-4, kEpoch, 100.0);
   EXPECT_NEAR(watch.drift(), 1.0e-4, 1.0e-5);
   EXPECT_NEAR(watch.offset(), 0.25 + 1.0e-4 * 97.0 - 0.001, 1.0e-3);
   EXPECT_LT(watch.deviation(), 1.0e-3);
 }
 
-TEST(ClockWatch, ClocksThatCountFromElsewhereAreComparedWithTheirStart) {
-  const ClockWatch watch = watched(0.0, -2.0e-3, 0, 60.0);
+TEST(ClockOffsetEstimator, ClocksThatCountFromElsewhereAreComparedWithTheirStart) {
+  const ClockOffsetEstimator watch = watched(0.0, -2.0e-3, 0, 60.0);
   EXPECT_NEAR(watch.offset(), -2.0e-3 * 52.5, 1.0e-2);  // of the last whole window, 50 to 55 s
   EXPECT_NEAR(watch.drift(), -2.0e-3, 1.0e-4);
 }
 
-/// One that counts from its own start was started again; one that shows the time of day was set.
-TEST(ClockWatch, AMachineThatIsStartedAgainHasAClockOfItsOwn) {
+/// A clock that counts from its own start was restarted; one with the time of day was set.
+TEST(ClockOffsetEstimator, AMachineThatIsStartedAgainHasAClockOfItsOwn) {
   for (const std::int64_t epoch : {std::int64_t{0}, kEpoch}) {
-    ClockWatch watch;
+    ClockOffsetEstimator watch;
     for (int k = 0; k < 4000; ++k) {
       if (k == 2000) {
         watch.restart();
@@ -53,9 +54,9 @@ TEST(ClockWatch, AMachineThatIsStartedAgainHasAClockOfItsOwn) {
 }
 
 /// A busy machine, where all messages of some seconds are late: no clock gains.
-TEST(ClockWatch, DelaysThatComeAndGoAreNoDrift) {
+TEST(ClockOffsetEstimator, DelaysThatComeAndGoAreNoDrift) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    ClockWatch watch;
+    ClockOffsetEstimator watch;
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> late(0.0, 0.03);
     double delay = 0.0;
@@ -69,8 +70,8 @@ TEST(ClockWatch, DelaysThatComeAndGoAreNoDrift) {
   }
 }
 
-TEST(ClockWatch, SaysNothingBeforeItKnows) {
-  const ClockWatch watch = watched(0.0, 0.0, kEpoch, 4.0);
+TEST(ClockOffsetEstimator, SaysNothingBeforeItKnows) {
+  const ClockOffsetEstimator watch = watched(0.0, 0.0, kEpoch, 4.0);
   EXPECT_TRUE(std::isnan(watch.offset()));
   EXPECT_TRUE(std::isnan(watch.drift()));
   EXPECT_TRUE(std::isnan(watch.deviation()));

@@ -1,7 +1,7 @@
-// How well a run-up tells what a rotor is, and that the filter gets all of it out: its standard
-// deviations, and what its estimates really scatter by, are those of Cramér and Rao's bound, which
-// no unbiased estimate of the same samples goes below; and through the sensors of a scene, with a
-// keyphasor of 4096 steps and run-out under the probes, it finds what it should.
+// Information on a rotor's parameters in a run-up, and the efficiency of the filter: its standard
+// deviations, and the actual scatter of its estimates, reach Cramér and Rao's bound, which no
+// unbiased estimate from the same samples can undercut; and with the sensors of a scene, a
+// keyphasor of 4096 steps and run-out under the probes, it finds the true values.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -111,8 +111,8 @@ Eigen::Vector4d bound(const RunUp& truth) {
   return (scale.cwiseAbs2().cwiseProduct(inverse.diagonal())).cwiseSqrt().head<4>();
 }
 
-FollowedChannel probe(const char* name, double direction) {
-  FollowedChannel channel;
+EstimatorChannel probe(const char* name, double direction) {
+  EstimatorChannel channel;
   channel.name = name;
   channel.signal.kind = SignalSpec::Kind::kDisplacement;
   channel.signal.direction = direction;
@@ -121,7 +121,7 @@ FollowedChannel probe(const char* name, double direction) {
   return channel;
 }
 
-/// 60 run-ups, each started from numbers drawn of what the filter is told of them (1,000 with
+/// 60 run-ups, each started from parameters drawn from the filter's prior (1,000 with
 /// WHIRL_TWIN_EXTREMES=full).
 TEST(CramerRao, IsReachedByTheFilterWithinATenth) {
   const RunUp truth(kStiffness, kDamping, kEccentricity);
@@ -137,8 +137,8 @@ TEST(CramerRao, IsReachedByTheFilterWithinATenth) {
   for (int run = 0; run < runs; ++run) {
     const double stiffness = kStiffness * std::exp(0.01 * normal(random));
     const double damping = kDamping * std::exp(0.1 * normal(random));
-    SystemFilter filter(builtSceneOf(rotor(stiffness, damping, 0.0)), 0, settings,
-                        {probe("probes/x", 0.0), probe("probes/y", M_PI / 2.0)});
+    ExtendedKalmanFilter filter(builtSceneOf(rotor(stiffness, damping, 0.0)), 0, settings,
+                                {probe("probes/x", 0.0), probe("probes/y", M_PI / 2.0)});
     filter.begin(truth.shaft[0]);
     for (std::size_t k = 1; k < truth.z.size(); ++k) {
       filter.goTo(truth.shaft[k]);
@@ -192,7 +192,7 @@ TEST(FollowedRunUp, TellsUnbalanceStiffnessAndDampingThroughTheSensors) {
       }
     }
     twin.follower.finish();
-    const SystemFilter* const filter = twin.follower.filter(0);
+    const ExtendedKalmanFilter* const filter = twin.follower.filter(0);
     ASSERT_NE(filter, nullptr);
     const Eigen::Vector2d u = filter->unbalance(0);
     const double off[4] = {std::fabs(filter->parameter(0) / kStiffness - 1.0),

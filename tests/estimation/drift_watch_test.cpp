@@ -1,5 +1,5 @@
-// Parameters that stand still raise no alarm, however long a filter remembers; one that drifts does
-// in time, and it is told which, from where, to where and since when.
+// Constant parameters raise no alarm, whatever the memory of the filter; one that drifts does in
+// time, and the alarm reports which, from which value, to which value and since when.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -43,9 +43,9 @@ class Estimate {
   std::int64_t k_ = 0;
 };
 
-/// [s] of the first alarm of a parameter that stands still at 1, with the deviation that is told;
-/// infinite: none in so many seconds.
-double firstAlarm(DriftWatch& watch, Estimate& estimate, double deviation, double seconds,
+/// [s] of the first alarm for a constant parameter of value 1, with the given standard deviation;
+/// infinite: none within `seconds`.
+double firstAlarm(CusumDetector& watch, Estimate& estimate, double deviation, double seconds,
                   double step) {
   for (std::int64_t k = 0; step * static_cast<double>(k) < seconds; ++k) {
     const double time = step * static_cast<double>(k);
@@ -57,15 +57,15 @@ double firstAlarm(DriftWatch& watch, Estimate& estimate, double deviation, doubl
   return std::numeric_limits<double>::infinity();
 }
 
-TEST(DriftWatch, AlarmsFalselyLessOftenThanAskedFor) {
-  // One in ten hours, of filters that remember long and short, know well and badly, and are right
-  // about it or too sure; a hundred runs of two hours with a warm-up each.
+TEST(CusumDetector, AlarmsFalselyLessOftenThanAskedFor) {
+  // False-alarm rate of one in ten hours, for filters with long and short memory, high and low
+  // uncertainty, consistent or overconfident; a hundred runs of two hours with a warm-up each.
   for (const double memory : {0.1, 3.0, 10.0, 60.0}) {
     for (const double deviation : {0.002, 0.05}) {
       for (const double sure : {1.0, 1.4}) {
         int alarms = 0;
         for (std::uint32_t seed = 0; seed < 100; ++seed) {
-          DriftWatch watch(1, {1.0, 120.0, 0.02, 0.1});
+          CusumDetector watch(1, {1.0, 120.0, 0.02, 0.1});
           Estimate estimate(sure * deviation, memory, seed, 1.0);
           alarms += std::isfinite(firstAlarm(watch, estimate, deviation, 7200.0, 1.0)) ? 1 : 0;
         }
@@ -76,13 +76,13 @@ TEST(DriftWatch, AlarmsFalselyLessOftenThanAskedFor) {
   }
 }
 
-TEST(DriftWatch, AlarmsFalselyLessOftenThanAskedForWhereParametersAreEstimatedTogether) {
+TEST(CusumDetector, AlarmsFalselyLessOftenThanAskedForWhereParametersAreEstimatedTogether) {
   // y = a + b u + noise, by a Kalman filter that lets a and b walk; u changes slowly, so that their
   // errors are correlated with each other and along time.
   int alarms = 0;
   for (std::uint32_t seed = 0; seed < 50; ++seed) {
     const CounterNoise noise(seed, 9);
-    DriftWatch watch(2, {1.0, 120.0, 0.02, 0.1});
+    CusumDetector watch(2, {1.0, 120.0, 0.02, 0.1});
     Eigen::Vector2d x(1.0, 1.0);
     Eigen::Matrix2d p = 0.01 * Eigen::Matrix2d::Identity();
     bool alarmed = false;
@@ -105,13 +105,13 @@ TEST(DriftWatch, AlarmsFalselyLessOftenThanAskedForWhereParametersAreEstimatedTo
 
 struct Found {
   double at = std::numeric_limits<double>::infinity();  // [s] after the drift began
-  DriftWatch::Drift drift;
+  CusumDetector::Drift drift;
 };
 
-/// The stiffness 1.7e7 loses 5 % in 60 s, after half an hour, beside a mass that stands still.
+/// The stiffness 1.7e7 loses 5 % in 60 s, after half an hour, with a constant mass.
 Found drifting(double deviation, double memory, std::uint32_t seed) {
   constexpr double kStiffness = 1.7e7, kBegins = 1800.0;
-  DriftWatch watch(2);
+  CusumDetector watch(2);
   Estimate mass(deviation, memory, 2 * seed), stiffness(deviation, memory, 2 * seed + 1);
   for (std::int64_t k = 0; k < 19000; ++k) {
     const double time = 0.1 * static_cast<double>(k);
@@ -126,7 +126,7 @@ Found drifting(double deviation, double memory, std::uint32_t seed) {
   return {};
 }
 
-TEST(DriftWatch, FindsFivePercentInAMinuteTenSecondsAfterTwo) {
+TEST(CusumDetector, FindsFivePercentInAMinuteTenSecondsAfterTwo) {
   for (const auto& [deviation, memory] : {std::pair(0.002, 1.0), std::pair(0.003, 3.0)}) {
     for (std::uint32_t seed = 0; seed < 100; ++seed) {
       const Found found = drifting(deviation, memory, seed);
@@ -141,10 +141,10 @@ TEST(DriftWatch, FindsFivePercentInAMinuteTenSecondsAfterTwo) {
   }
 }
 
-TEST(DriftWatch, WhatIsKnownBetterLaterIsNoDriftAndANewReference) {
-  // Badly known and frozen, then told by a run-up: the estimate goes to the truth at once. What it
-  // loses after that is found as soon as that is known.
-  DriftWatch watch(1);
+TEST(CusumDetector, WhatIsKnownBetterLaterIsNoDriftAndANewReference) {
+  // Poorly known and frozen, then identified by a run-up: the estimate jumps to the true value. A
+  // later loss is detected as soon as the estimate shows it.
+  CusumDetector watch(1);
   Estimate good(0.005, 3.0, 1);
   double found = std::numeric_limits<double>::infinity();
   for (std::int64_t k = 0; k < 15000; ++k) {
@@ -160,9 +160,10 @@ TEST(DriftWatch, WhatIsKnownBetterLaterIsNoDriftAndANewReference) {
   EXPECT_LT(found, 1220.0);
 }
 
-TEST(DriftWatch, WhatIsKnownWorseLaterMayWander) {
-  // A probe dies: the deviation is five times as large, and the estimate wanders as it says.
-  DriftWatch watch(1);
+TEST(CusumDetector, WhatIsKnownWorseLaterMayWander) {
+  // A probe fails: the standard deviation is five times as large, and the estimate scatters
+  // accordingly.
+  CusumDetector watch(1);
   Estimate good(0.004, 1.0, 1), worse(0.02, 25.0, 2);
   for (std::int64_t k = 0; k < 72000; ++k) {
     const double time = 0.1 * static_cast<double>(k);
@@ -173,8 +174,8 @@ TEST(DriftWatch, WhatIsKnownWorseLaterMayWander) {
   }
 }
 
-TEST(DriftWatch, WhatReturnsIsNoDriftAnyMore) {
-  DriftWatch watch(1);
+TEST(CusumDetector, WhatReturnsIsNoDriftAnyMore) {
+  CusumDetector watch(1);
   Estimate estimate(0.002, 2.0, 4);
   int alarmed = 0;
   for (std::int64_t k = 0; k < 6000; ++k) {
@@ -190,8 +191,8 @@ TEST(DriftWatch, WhatReturnsIsNoDriftAnyMore) {
   EXPECT_GT(alarmed, 90);
 }
 
-TEST(DriftWatch, AnEstimateThatIsNoneIsLeftOut) {
-  DriftWatch watch(1);
+TEST(CusumDetector, AnEstimateThatIsNoneIsLeftOut) {
+  CusumDetector watch(1);
   Estimate estimate(0.002, 2.0, 4);
   for (std::int64_t k = 0; k < 6000; ++k) {
     const double time = 0.1 * static_cast<double>(k);
@@ -205,8 +206,8 @@ TEST(DriftWatch, AnEstimateThatIsNoneIsLeftOut) {
   EXPECT_TRUE(std::isfinite(watch.drift().statistic));
 }
 
-TEST(DriftWatch, AllocatesNothingForASample) {
-  DriftWatch watch(1);
+TEST(CusumDetector, AllocatesNothingForASample) {
+  CusumDetector watch(1);
   Estimate estimate(0.002, 2.0, 4);
   const AllocationGuard guard;
   firstAlarm(watch, estimate, 0.002, 600.0, 0.1);

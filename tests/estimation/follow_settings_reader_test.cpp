@@ -1,10 +1,10 @@
-// What a follower is told: the same from a file and from a parameter server.
+// Settings of the state estimator: the same from a file and from a parameter server.
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "estimation/follow_settings.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "scene/scene_reader.h"
 
 namespace whirl_twin {
@@ -34,7 +34,7 @@ TEST(FollowSettings, TakesZerosByPathAndNestedAsAParameterServerHasThem) {
        {"{encoders: 0.02}", "{encoders: {phi: 0.02}}", "{rig: {theta: 0.02}}",
         "{encoders: {theta: -1.0}}", "{encoders: {theta: {a: 1.0}}}", "{encoders/phi: 0.02}",
         "{encoders/theta: 1.0e300}", "0.02", "[0.02]"}) {
-    EXPECT_THROW(settingsOf(std::string("offsets: ") + offsets), Refusal) << offsets;
+    EXPECT_THROW(settingsOf(std::string("offsets: ") + offsets), InputError) << offsets;
   }
 }
 
@@ -59,7 +59,7 @@ TEST(FollowSettings, TakesAMeasuredInputByItsChannel) {
        {"{force: motor/tau}", "{torque: tau}", "{torque: motor/}", "{torque: encoders/theta}",
         "{torque: {scale: 2.0}}", "{torque: {channel: motor/tau, hold: maybe}}",
         "{torque: {channel: motor/tau, deviation: -1.0}}", "{torque: [motor/tau]}", "motor/tau"}) {
-    EXPECT_THROW(settingsOf(std::string("inputs: ") + wrong), Refusal) << wrong;
+    EXPECT_THROW(settingsOf(std::string("inputs: ") + wrong), InputError) << wrong;
   }
 }
 

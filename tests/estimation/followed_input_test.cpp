@@ -1,19 +1,19 @@
-// What acts on an input between the samples of its sensor.
+// The value of an input between the samples of its sensor.
 #include <gtest/gtest.h>
 
-#include "estimation/followed_sources.h"
+#include "estimation/estimator_sources.h"
 
 namespace whirl_twin {
 namespace followed_input_test {
 
 constexpr std::int64_t kStep = 10'000'000;  // ns
 
-TEST(FollowedInput, IsTheLineBetweenSamples) {
-  FollowedInput input(false, 0.0);
+TEST(EstimatorInput, IsTheLineBetweenSamples) {
+  EstimatorInput input(false, 0.0);
   EXPECT_FALSE(input.known());
   input.take({0, 1.0});
   ASSERT_TRUE(input.known());
-  EXPECT_EQ(input.at(0, 0.004), 1.0);  // nobody knows of the next
+  EXPECT_EQ(input.at(0, 0.004), 1.0);  // the next value is not yet known
   input.take({kStep, 3.0});
   input.take({2 * kStep, 2.0});
   EXPECT_EQ(input.at(-kStep, 0.0), 1.0);
@@ -22,21 +22,21 @@ TEST(FollowedInput, IsTheLineBetweenSamples) {
   EXPECT_DOUBLE_EQ(input.at(5'000'000, 0.01), 2.5);
   EXPECT_DOUBLE_EQ(input.at(kStep, 0.1), 2.0);  // beyond
   input.take({102 * kStep, 9.0});
-  EXPECT_DOUBLE_EQ(input.at(50 * kStep, 0.0), 2.0);  // for a second nobody knew
+  EXPECT_DOUBLE_EQ(input.at(50 * kStep, 0.0), 2.0);  // no known value for a second
   input.forgetBefore(kStep + 1);
   EXPECT_DOUBLE_EQ(input.at(kStep, 0.005), 2.5);
 }
 
-TEST(FollowedInput, IsHeldWhereThatIsHowItActs) {
-  FollowedInput input(true, 0.0);
+TEST(EstimatorInput, IsHeldWhereThatIsHowItActs) {
+  EstimatorInput input(true, 0.0);
   input.take({0, 1.0});
   input.take({kStep, 3.0});
   EXPECT_EQ(input.at(0, 0.009), 1.0);
   EXPECT_EQ(input.at(kStep, 0.0), 3.0);
 }
 
-TEST(FollowedInput, HasACornerAtEachSample) {
-  FollowedInput input(true, 0.0);
+TEST(EstimatorInput, HasACornerAtEachSample) {
+  EstimatorInput input(true, 0.0);
   for (std::int64_t k = 0; k < 4; ++k) {
     input.take({k * kStep, 1.0});
   }
@@ -46,12 +46,12 @@ TEST(FollowedInput, HasACornerAtEachSample) {
 }
 
 /// N samples with noise s, each lasting for a time h, push as white noise of density s^2 h does.
-TEST(FollowedInput, HasTheNoiseOfItsSamples) {
-  FollowedInput input(true, 0.2);
+TEST(EstimatorInput, HasTheNoiseOfItsSamples) {
+  EstimatorInput input(true, 0.2);
   input.take({0, 1.0});
   EXPECT_EQ(input.noiseDensity(), 0.0);
   input.take({kStep, 1.0});
-  input.take({kStep, 5.0});  // again: left out
+  input.take({kStep, 5.0});  // duplicate: ignored
   EXPECT_EQ(input.at(kStep, 0.0), 1.0);
   EXPECT_DOUBLE_EQ(input.noiseDensity(), 0.04 * 0.01);
 }

@@ -1,4 +1,4 @@
-// A simulated machine that tells what its sensors see, and the twin that follows it.
+// A simulated plant that publishes its sensor data, and the state estimator that follows it.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "estimation/followed_scene.h"
-#include "estimation/follower.h"
+#include "estimation/estimator_scene.h"
+#include "estimation/state_estimator.h"
 #include "scene/scene_reader.h"
 #include "twin/measurements.h"
 #include "twin/observer.h"
@@ -18,7 +18,7 @@ inline BuiltScene builtSceneOf(const std::string& text) {
   return build(readScene(YAML::Load(text), "a test"));
 }
 
-/// A machine that runs, and tells what its sensors see.
+/// A running plant that publishes its sensor data.
 class Machine {
  public:
   explicit Machine(const std::string& scene)
@@ -53,11 +53,11 @@ class Machine {
   std::vector<std::unique_ptr<Stepper>> old_;
 };
 
-/// The follower, and all that it has told.
+/// The state estimator, and all its output.
 class Twinned {
  public:
   Twinned(const std::string& scene, const FollowSettings& settings)
-      : twin_(build(readFollowedScene(YAML::Load(scene), "a test"))),
+      : twin_(build(readEstimatorScene(YAML::Load(scene), "a test"))),
         follower(twin_, std::make_shared<SystemGenerations>(twin_), settings, 10, listener()) {}
 
   const state::FollowState& last() const { return told.back(); }
@@ -71,7 +71,7 @@ class Twinned {
   double speed = 0.0;         ///< [rad/s], of the shaft there
 
  private:
-  FollowerListener listener() {
+  EstimatorListener listener() {
     return {[this](const double* record) {
               const auto rotor = twin_.layout().system(record, 0);
               whirl_.push_back(rotor.q()[0]);
@@ -89,7 +89,7 @@ class Twinned {
 
  public:
   std::vector<state::FollowState> told;
-  Follower follower;
+  StateEstimator follower;
 };
 
 }  // namespace whirl_twin

@@ -1,4 +1,4 @@
-// A rotor that a motor turns, followed by its probes and its keyphasor.
+// State estimation of a rotor on a motor, by its probes and its keyphasor.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "estimation/followed_scene.h"
+#include "estimation/estimator_scene.h"
 #include "followed_machine.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace followed_motor_test {
@@ -91,10 +91,10 @@ TEST(FollowedMotor, OfWhichNothingTellsTheAngleIsRefused) {
   try {
     const Twinned twin(kMotor, {});
     FAIL() << "followed";
-  } catch (const Refusal& refusal) {
-    EXPECT_THAT(refusal.what(),
+  } catch (const InputError& inputError) {
+    EXPECT_THAT(inputError.what(),
                 HasSubstr("systems.rotor: the torque of its motor is not measured"));
-    EXPECT_THAT(refusal.what(), HasSubstr("keyphasor"));
+    EXPECT_THAT(inputError.what(), HasSubstr("keyphasor"));
   }
 }
 
@@ -102,14 +102,14 @@ TEST(FollowedMotor, WhoseSpinIsMeasuredByAnotherSensorIsRefused) {
   std::string scene = kMotor + kTacho;
   scene.replace(scene.find("rotor.y"), 7, "rotor.spin");
   try {
-    readFollowedScene(YAML::Load(scene), "a test");
+    readEstimatorScene(YAML::Load(scene), "a test");
     FAIL() << "read";
-  } catch (const Refusal& refusal) {
-    EXPECT_THAT(refusal.what(), HasSubstr("sensors.probes.y: must not measure the spin"));
+  } catch (const InputError& inputError) {
+    EXPECT_THAT(inputError.what(), HasSubstr("sensors.probes.y: must not measure the spin"));
   }
 }
 
-/// Its controller is the machine's, and only what a keyphasor looks at is measured.
+/// The controller is part of the plant, and only the keyphasor is measured.
 TEST(FollowedMotor, LosesItsControllerAndNothingElse) {
   const std::string controlled = kMotor + kTacho + R"(
 controllers:
@@ -121,12 +121,12 @@ controllers:
     parameters: {speed: 300.0, max_acceleration: 15.0, max_jerk: 60.0, inertia: 0.02, kp: 0.5, ki: 1.0,
                  motor: [{speed: 0.0, torque: 0.6}]}
 )";
-  const Scene followed = readFollowedScene(YAML::Load(controlled), "a test");
+  const Scene followed = readEstimatorScene(YAML::Load(controlled), "a test");
   EXPECT_TRUE(followed.controllers.empty());
   EXPECT_FALSE(followed.drives[0].motor.has_value());
   EXPECT_EQ(followed.drives[0].speed, 150.0);
   EXPECT_EQ(followed.systems[0].q.size(), 2u);
-  EXPECT_TRUE(readFollowedScene(YAML::Load(kMotor), "a test").drives[0].motor.has_value());
+  EXPECT_TRUE(readEstimatorScene(YAML::Load(kMotor), "a test").drives[0].motor.has_value());
 }
 
 }  // namespace followed_motor_test

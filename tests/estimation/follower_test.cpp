@@ -1,6 +1,4 @@
-// A follower beside a simulated machine that it knows by its sensors alone.
-#include "estimation/follower.h"
-
+// A state estimator of a simulated plant that it knows by its sensors alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,8 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "estimation/state_estimator.h"
 #include "followed_machine.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace follower_test {
@@ -46,7 +45,7 @@ FollowSettings followStiffness() {
   return settings;
 }
 
-TEST(Follower, TellsTheWhirlThatTheMachineHas) {
+TEST(StateEstimator, TellsTheWhirlThatTheMachineHas) {
   Machine machine(kRotor);
   Twinned twin(kRotor, {});
   for (int k = 0; k < 10'000; ++k) {
@@ -54,7 +53,7 @@ TEST(Follower, TellsTheWhirlThatTheMachineHas) {
       twin.follower.take(m);
     }
   }
-  // What the machine's whirl was when the newest record was due.
+  // The plant's whirl at the time of the newest record.
   Machine again(kRotor);
   while (again.time() < twin.recorded - 1.0e-9) {
     again.step();
@@ -66,9 +65,9 @@ TEST(Follower, TellsTheWhirlThatTheMachineHas) {
   EXPECT_GT(twin.last().used, 3700);
 }
 
-/// An outlier where nothing is known of the motion yet: what it begins with is a vibration that is
-/// not there, and would tell a stiffness.
-TEST(Follower, LearnsNothingOfAMotionThatBeginsWithAnOutlier) {
+/// An outlier before the motion is known: the initial estimate contains a vibration that does not
+/// exist, and would identify a stiffness from it.
+TEST(StateEstimator, LearnsNothingOfAMotionThatBeginsWithAnOutlier) {
   std::string scene = kRotor;
   scene.erase(scene.find("  tacho"));
   scene.replace(scene.find("rate: 200.0"), 11, "rate: 1000.0");
@@ -86,9 +85,9 @@ TEST(Follower, LearnsNothingOfAMotionThatBeginsWithAnOutlier) {
   EXPECT_LT(twin.last().deviation[0], 20.0);
 }
 
-/// Two per cent of stiffness are what matters: told within ten seconds of being gone, not before
-/// anything has changed, and what it has become is told right.
-TEST(Follower, TellsOfAShaftThatSoftens) {
+/// A stiffness loss of two per cent is significant: it is reported within ten seconds, not before
+/// any change, and with the right new value.
+TEST(StateEstimator, TellsOfAShaftThatSoftens) {
   Machine machine(kRotor);
   Twinned twin(kRotor, followStiffness());
   const auto stiffness = [](double t) {
@@ -114,9 +113,9 @@ TEST(Follower, TellsOfAShaftThatSoftens) {
   EXPECT_NEAR(twin.last().value[0], stiffness(260.0), 0.005 * 7200.0);
 }
 
-/// Sources that are slower than others, within the patience, and blocks that come in another order,
-/// change not a bit.
-TEST(Follower, GivesTheSameBitsInWhateverOrderSourcesCome) {
+/// Sources with different delays, within the reordering delay, and blocks in a different order give
+/// bit-identical results.
+TEST(StateEstimator, GivesTheSameBitsInWhateverOrderSourcesCome) {
   const auto run = [](int delay) {
     Machine machine(kRotor);
     FollowSettings settings = followStiffness();
@@ -149,9 +148,9 @@ TEST(Follower, GivesTheSameBitsInWhateverOrderSourcesCome) {
                          slow.begin()));
 }
 
-/// A probe that is dead, samples that are none, a keyphasor that misses two seconds, blocks that
-/// are lost or come twice: each is said, and the motion is known again afterwards.
-TEST(Follower, SurvivesWhatSensorsDo) {
+/// A dead probe, invalid samples, a keyphasor gap of two seconds, blocks that are lost or
+/// duplicated: each is reported, and the motion is known again afterwards.
+TEST(StateEstimator, SurvivesWhatSensorsDo) {
   Machine machine(kRotor);
   Twinned twin(kRotor, {});
   bool dead_said = false, refused_said = false;
@@ -164,7 +163,7 @@ TEST(Follower, SurvivesWhatSensorsDo) {
           m.value[i] = kNaN;
         }
       }
-      if (probes && t > 10.0 && t < 12.0) {  // one stands still, far away
+      if (probes && t > 10.0 && t < 12.0) {  // one is constant, far off
         for (std::size_t i = 1; i < m.value.size(); i += 2) {
           m.value[i] = 1.0e-2;
         }
@@ -209,7 +208,8 @@ std::string with(std::string scene, const std::string& what, const std::string& 
   return scene.replace(scene.find(what), what.size(), instead);
 }
 
-/// What the twin's records are off the machine by: root mean square [m] from one time to another.
+/// Difference between the twin's records and the plant: root mean square [m] from one time to
+/// another.
 double apart(const Twinned& twin, const std::string& machine, double from, double to) {
   Machine again(machine);
   const std::vector<double> whirl = twin.whirl();
@@ -226,10 +226,10 @@ double apart(const Twinned& twin, const std::string& machine, double from, doubl
   return std::sqrt(squares / count);
 }
 
-/// Pulses cease for ten seconds, in which the shaft takes another speed. The whirl stays as well
-/// known as two probes tell it, which is less than before, and that is said. What has been learned
-/// of the unbalance is kept, and is right at the angle at which the shaft is found again.
-TEST(Follower, GoesOnByTheProbesWithoutAKeyphasor) {
+/// Pulses cease for ten seconds, in which the shaft changes speed. The whirl is known with the
+/// accuracy of two probes, which is lower than before, and reported as such. The unbalance estimate
+/// is kept, and is right at the angle at which the shaft is found again.
+TEST(StateEstimator, GoesOnByTheProbesWithoutAKeyphasor) {
   const std::string rig =
       with(kRotor, "{speed: 45.0}",
            "{speed: 45.0, profile: ["
@@ -278,8 +278,8 @@ TEST(Follower, GoesOnByTheProbesWithoutAKeyphasor) {
   }
 }
 
-/// A keyphasor that has never told anything: the shaft turns as the drive says, at whatever angle.
-TEST(Follower, BeginsByTheProbesWhereTheKeyphasorIsDead) {
+/// A keyphasor that never gave a pulse: the shaft has the drive's speed, with unknown angle.
+TEST(StateEstimator, BeginsByTheProbesWhereTheKeyphasorIsDead) {
   Machine machine(kRotor);
   Twinned twin(with(kRotor, "speed: 45.0", "speed: 46.0"), {});
   while (machine.time() < 10.0) {
@@ -293,9 +293,9 @@ TEST(Follower, BeginsByTheProbesWhereTheKeyphasorIsDead) {
   EXPECT_LT(apart(twin, kRotor, 3.0, 10.0), 6.0e-6);
 }
 
-/// The machine's clock is set forward, and back, by an hour: the twin's time goes on, and the
-/// motion is found anew.
-TEST(Follower, GoesOnWhenTheMachinesClockIsSet) {
+/// The plant's clock is set forward, and back, by an hour: the twin's time continues, and the
+/// motion is found again.
+TEST(StateEstimator, GoesOnWhenTheMachinesClockIsSet) {
   Machine machine(kRotor);
   Twinned twin(kRotor, {});
   constexpr std::int64_t kHour = 3'600'000'000'000;
@@ -318,9 +318,9 @@ TEST(Follower, GoesOnWhenTheMachinesClockIsSet) {
   EXPECT_LT(std::fabs(twin.last().residual[0]), 5.0 * twin.last().residual_deviation[0]);
 }
 
-/// What a message says of its unit and of its noise is believed: probes in um, ten times as noisy
-/// as the scene has them. In a unit of another kind they show nothing.
-TEST(Follower, TakesUnitsAndDeviationsAsMessagesSayThem) {
+/// The unit and noise in a message are used: probes in um, ten times as noisy as in the scene. In a
+/// unit of a different dimension they give no information.
+TEST(StateEstimator, TakesUnitsAndDeviationsAsMessagesSayThem) {
   const std::string noisy =
       with(with(kRotor, "noise: 3.0e-6", "noise: 3.0e-5"), "noise: 3.0e-6", "noise: 3.0e-5");
   Machine machine(noisy);
@@ -391,8 +391,8 @@ state::Measurement torqueBlock(std::int64_t number) {
   return block;
 }
 
-/// Drives the arm for 20 s, of which nobody hears of its torque from 12 s to 14 s; the torque's
-/// blocks come `late` steps after they are complete.
+/// Drives the arm for 20 s, without data of its torque from 12 s to 14 s; the torque's blocks
+/// arrive `late` steps after they are complete.
 void followDrivenArm(
     Twinned& twin, bool torque_told, int late,
     const std::function<void(double)>& look = [](double) {}) {
@@ -411,9 +411,9 @@ void followDrivenArm(
   twin.follower.finish();
 }
 
-/// A torque that is measured is taken for what acts; without it the arm moves as the model cannot.
-/// Where it is not heard of, that is said.
-TEST(Follower, TakesWhatActsOnAnInputFromItsSensor) {
+/// A measured torque is used as the input; without it the arm moves in a way that the model cannot.
+/// A gap in its data is reported.
+TEST(StateEstimator, TakesWhatActsOnAnInputFromItsSensor) {
   const std::string model = with(kDrivenArm, kTorque, "");
   Twinned driven(model, followTorque());
   bool silent = false;
@@ -442,24 +442,24 @@ TEST(Follower, TakesWhatActsOnAnInputFromItsSensor) {
   without.systems["arm"].inputs.clear();
   Twinned free(model, without);
   followDrivenArm(free, false, 0);
-  EXPECT_GT(free.follower.restarts(), 10);  // it is never what the model expects
+  EXPECT_GT(free.follower.restarts(), 10);  // it never agrees with the model
 }
 
-/// However late within the patience the torque comes, not a bit changes.
-TEST(Follower, TakesALateInputWhereItBelongs) {
+/// Any delay of the torque within the reordering delay gives bit-identical results.
+TEST(StateEstimator, TakesALateInputWhereItBelongs) {
   const std::string model = with(kDrivenArm, kTorque, "");
   Twinned prompt(model, followTorque()), late(model, followTorque());
   followDrivenArm(prompt, true, 0);
   followDrivenArm(late, true, 90);
   const std::vector<double> one = prompt.whirl(), other = late.whirl();
-  constexpr std::ptrdiff_t kBoth = 3800;  // 19 s: what comes after the end is not waited for
+  constexpr std::ptrdiff_t kBoth = 3800;  // 19 s: data after the end are not waited for
   ASSERT_GT(std::min(one.size(), other.size()), static_cast<std::size_t>(kBoth));
   EXPECT_TRUE(std::equal(one.begin(), one.begin() + kBoth, other.begin()));
 }
 
-/// A shaft with a disc between two bearings, seen by probes at the disc and at one bearing: what
-/// the bearings bear is its weight, and more at the one that the disc is nearer to.
-TEST(Follower, TellsWhatTheBearingsBear) {
+/// A shaft with a disc between two bearings, measured by probes at the disc and at one bearing: the
+/// bearing loads add up to its weight, and the one nearer to the disc has more.
+TEST(StateEstimator, TellsWhatTheBearingsBear) {
   const char* text = R"(
 name: rig
 step: 0.0005
@@ -521,14 +521,15 @@ sensors:
               0.03 * weight);
 }
 
-TEST(Follower, RefusesASceneThatMeasuresNothing) {
+TEST(StateEstimator, RefusesASceneThatMeasuresNothing) {
   const std::string text = std::string(kRotor).substr(0, std::string(kRotor).find("sensors:"));
   const Twin twin(builtSceneOf(text));
-  EXPECT_THROW(Follower(twin, std::make_shared<SystemGenerations>(twin), {}, 1, {}), Refusal);
+  EXPECT_THROW(StateEstimator(twin, std::make_shared<SystemGenerations>(twin), {}, 1, {}),
+               InputError);
 }
 
 /// One block in which the clock is set: three hours are not stepped through.
-TEST(Follower, GoesOnWhenTheClockIsSetWithinABlock) {
+TEST(StateEstimator, GoesOnWhenTheClockIsSetWithinABlock) {
   Machine machine(kRotor);
   Twinned twin(kRotor, {});
   constexpr std::int64_t kHours = 10'800'000'000'000;  // ns
@@ -557,8 +558,8 @@ TEST(Follower, GoesOnWhenTheClockIsSetWithinABlock) {
   EXPECT_LT(twin.recorded, 7.0);
 }
 
-/// One probe dies while the clock is set: what has not been heard of since is silent.
-TEST(Follower, TellsOfAChannelThatIsSilentSinceTheClockWasSet) {
+/// One probe fails while the clock is set: its timeout is reported.
+TEST(StateEstimator, TellsOfAChannelThatIsSilentSinceTheClockWasSet) {
   Machine machine(kRotor);
   Twinned twin(kRotor, {});
   constexpr std::int64_t kHour = 3'600'000'000'000;
@@ -582,9 +583,9 @@ TEST(Follower, TellsOfAChannelThatIsSilentSinceTheClockWasSet) {
   EXPECT_EQ(status(1), state::ChannelStatus::kSilent);
 }
 
-/// A follower that is told nonsense, here a disturbance beyond all numbers, begins anew, and tells
-/// nothing that is not a number.
-TEST(Follower, BeginsAnewWhenItsEstimateRunsAway) {
+/// A state estimator with absurd settings, here a process noise beyond all numbers, restarts, and
+/// publishes only finite numbers.
+TEST(StateEstimator, BeginsAnewWhenItsEstimateRunsAway) {
   Machine machine(kRotor);
   FollowSettings settings = followStiffness();
   settings.systems["rotor"].disturbance = 1.0e160;

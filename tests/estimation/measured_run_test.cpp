@@ -1,4 +1,4 @@
-// A recorded run: what is odd about it is said with its rows, and what cannot be used is refused.
+// A recorded run: anomalies are reported with their rows, and unusable data are rejected.
 #include "estimation/measured_run.h"
 
 #include <gmock/gmock.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <functional>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace measured_run_test {
@@ -31,10 +31,10 @@ MeasuredRun read(const std::string& text) {
   }
 }
 
-std::string refusal(const std::string& text) {
+std::string inputError(const std::string& text) {
   try {
     read(text);
-  } catch (const Refusal& error) {
+  } catch (const InputError& error) {
     return error.what();
   }
   return "";
@@ -89,13 +89,13 @@ TEST(MeasuredRun, NamesCoarseSteps) {
 }
 
 TEST(MeasuredRun, RefusesWhatCannotBeMeant) {
-  EXPECT_THAT(refusal("t,a\n0,1\n2,2\n1,3\n3,4\n2,5\n5,6\n"),
+  EXPECT_THAT(inputError("t,a\n0,1\n2,2\n1,3\n3,4\n2,5\n5,6\n"),
               HasSubstr("rows 2 and 5 have different values of 'a' at 2 s"));
-  EXPECT_THAT(refusal("t,a\n0,1\n1,2,7\n"), HasSubstr("line 3: expected at most 2 values"));
-  EXPECT_THAT(refusal("t,a\n0,1\n1,2\n"), HasSubstr("must have 5 rows of different instants"));
-  EXPECT_THAT(refusal("t,b\n0,1\n1,2\n"), HasSubstr("no column 'a'"));
-  EXPECT_THAT(refusal("t,a\n0,1\n1,nan\n"), HasSubstr("line 3"));
-  EXPECT_THAT(refusal("t,a\n0,1\n1e99,2\n"), HasSubstr("must be from -4.2e+09 to 4.2e+09 s"));
+  EXPECT_THAT(inputError("t,a\n0,1\n1,2,7\n"), HasSubstr("line 3: expected at most 2 values"));
+  EXPECT_THAT(inputError("t,a\n0,1\n1,2\n"), HasSubstr("must have 5 rows of different instants"));
+  EXPECT_THAT(inputError("t,b\n0,1\n1,2\n"), HasSubstr("no column 'a'"));
+  EXPECT_THAT(inputError("t,a\n0,1\n1,nan\n"), HasSubstr("line 3"));
+  EXPECT_THAT(inputError("t,a\n0,1\n1e99,2\n"), HasSubstr("must be from -4.2e+09 to 4.2e+09 s"));
 }
 
 }  // namespace measured_run_test

@@ -1,5 +1,5 @@
-// The measured swings that are shipped: a double pendulum on a laboratory rig, fitted on some of
-// them, predicts the others.
+// The shipped measured swings: a double pendulum on a laboratory rig, fitted to some of them,
+// predicts the others.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "estimation/follow_settings.h"
+#include "estimation/iterated_initializer.h"
 #include "estimation/shooting_fit.h"
-#include "estimation/starting_filter.h"
 #include "scene/built_scene.h"
 #include "scene/scene_reader.h"
 
 namespace whirl_twin {
 namespace measured_swings_test {
 
-constexpr double kBetweenSwings = 1.0;  // s, at least
+constexpr double kBetweenSwings = 1.0;  // s, minimum
 constexpr double kBar = 1.8e-3;         // rad
 
 MeasuredChannel channel(const std::string& name, std::size_t state) {
@@ -51,7 +51,7 @@ std::vector<StudyRun> swings() {
   return runs;
 }
 
-/// Of the swings as one window each; what is `absent` is 0.
+/// Of the swings as one window each; absent parameters are 0.
 FitStudy study(const std::vector<std::string>& parameters,
                const std::vector<std::string>& absent = {}) {
   FitStudy study;
@@ -77,7 +77,7 @@ double rms(const FittedRun& run) {
   return std::sqrt(0.5 * (run.rms[0] * run.rms[0] + run.rms[1] * run.rms[1]));
 }
 
-/// Three swings tell what the other five do, of which the widest lies beyond all that they show.
+/// Three swings predict the other five, the widest of which is outside the range of the three.
 TEST(MeasuredSwings, ThatAreLeftOutArePredicted) {
   FitStudy three = study({"length1", "center1", "center2", "inertia1", "damping1", "coulomb1",
                           "coulomb2", "drag2", "drag_reach2"},
@@ -125,16 +125,16 @@ TEST(MeasuredSwings, FollowedOnLineTellWhatPredictsThem) {
   SystemFollowing following =
       readFollowSettings(YAML::LoadFile(settings), settings, scene).of("pendulum");
   following.disturbance = 0.01;  // rad/s^2/sqrt(Hz), half of the demo's: docs/following.md
-  std::vector<FollowedChannel> channels;
+  std::vector<EstimatorChannel> channels;
   for (const SensorChannelSpec& sensed : scene.scene.sensors.front().channels) {
-    FollowedChannel encoder;
+    EstimatorChannel encoder;
     encoder.name = scene.scene.sensors.front().name + "/" + sensed.name;
     encoder.signal = sensed.signal;
     encoder.deviation = sensed.name == "theta2" ? 6.0e-5 : sensed.sensor.noise;  // [rad]
     encoder.offset = following.offset.at(encoder.name);
     channels.push_back(encoder);
   }
-  StartingFilter filter(scene, 0, following, channels);
+  IteratedInitializer filter(scene, 0, following, channels);
   for (StudyRun& run : all.runs) {
     run.train = false;
     for (std::size_t k = 0; k < run.data.time.size(); ++k) {

@@ -1,4 +1,4 @@
-// Which measured mode is which of a model's, where frequency alone does not say it.
+// Pairing of measured modes with those of a model where the frequency alone is ambiguous.
 #include "estimation/mode_pairing.h"
 
 #include <gtest/gtest.h>

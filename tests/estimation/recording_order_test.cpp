@@ -1,5 +1,5 @@
-// Recordings of motions that are known in closed form, shuffled, repeated, wrapped at a turn and
-// cut: the motion comes out, or what is wrong is said.
+// Recordings of motions known in closed form, shuffled, duplicated, wrapped at a turn and cut: the
+// motion is recovered, or the error is reported.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include "algebra/constants.h"
 #include "estimation/run_units.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace recording_order_test {
@@ -62,10 +62,10 @@ StudyRun settled(const std::vector<Row>& rows, std::optional<bool> wrap = std::n
   return run;
 }
 
-std::string refusal(const std::vector<Row>& rows, std::optional<bool> wrap = std::nullopt) {
+std::string inputError(const std::vector<Row>& rows, std::optional<bool> wrap = std::nullopt) {
   try {
     settled(rows, wrap);
-  } catch (const Refusal& error) {
+  } catch (const InputError& error) {
     return error.what();
   }
   return "";
@@ -128,7 +128,7 @@ TEST(RecordingOrder, WhateverBecomesOfARecordingTheMotionComesOutOrTheCauseIsNam
     try {
       expectMotion(settled(rows).data, motion, different);
       ++right;
-    } catch (const Refusal& error) {
+    } catch (const InputError& error) {
       EXPECT_THAT(error.what(), AnyOf(HasSubstr("in the gap"), HasSubstr("must have 5 rows")));
     }
     ASSERT_FALSE(HasFatalFailure());
@@ -149,8 +149,8 @@ TEST(RecordingOrder, TwoRunsInOneFileAreRefused) {
     for (Row row : Motion{0.0, 0.2, 5.0}.rows(100, 0.01)) {
       rows.push_back({row.time + offset, row.angle});
     }
-    EXPECT_THAT(refusal(rows), HasSubstr("row 101: the time goes back"));
-    EXPECT_THAT(refusal(rows), HasSubstr("must be one run, found two"));
+    EXPECT_THAT(inputError(rows), HasSubstr("row 101: the time goes back"));
+    EXPECT_THAT(inputError(rows), HasSubstr("must be one run, found two"));
   }
 }
 
@@ -176,15 +176,15 @@ TEST(RecordingOrder, AnEncoderOfSomeTurnsIsUnwrapped) {
 
 TEST(RecordingOrder, ADirectionThatIsNotKnownIsSaid) {
   const Motion fast{250.0, 0.0, 1.0};  // 2.5 rad from row to row
-  EXPECT_THAT(refusal(wrapped(fast.rows(100, 0.01), 0.0)), HasSubstr("three rows per turn"));
+  EXPECT_THAT(inputError(wrapped(fast.rows(100, 0.01), 0.0)), HasSubstr("three rows per turn"));
   std::vector<Row> rows = wrapped(Motion{9.0, 1.0, 4.0}.rows(300, 0.01), -kPi);
   rows.erase(rows.begin() + 100, rows.begin() + 160);
-  EXPECT_THAT(refusal(rows), HasSubstr("may have turned further in the gap of 0.61 s"));
+  EXPECT_THAT(inputError(rows), HasSubstr("may have turned further in the gap of 0.61 s"));
   // A swing of less than a turn with a jump in a gap may be wrapped or not.
   std::vector<Row> swing = Motion{0.0, 2.5, 5.0}.rows(110, 0.01);
   swing.erase(swing.begin() + 35, swing.begin() + 85);  // from 2.5 to -2.2 rad
-  EXPECT_THAT(refusal(swing), HasSubstr("set `wrap: true` if the angle is within one turn"));
-  EXPECT_EQ(refusal(swing, false), "");
+  EXPECT_THAT(inputError(swing), HasSubstr("set `wrap: true` if the angle is within one turn"));
+  EXPECT_EQ(inputError(swing, false), "");
 }
 
 }  // namespace recording_order_test

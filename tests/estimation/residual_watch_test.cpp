@@ -1,4 +1,4 @@
-// Innovations of a right model are called wrong as often as asked for; of a wrong one, at once.
+// Innovations of a right model are rejected at the specified rate; those of a wrong one at once.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -22,9 +22,9 @@ struct Counted {
   int windows = 0, mismatched = 0, coloured = 0;
 };
 
-/// Two channels of innovations for so many seconds at 100 Hz: `size` times normal numbers, of which
-/// each takes up `memory` of the one before.
-Counted run(ResidualWatch& watch, double seconds, double size = 1.0, double memory = 0.0) {
+/// Two channels of innovations for so many seconds at 100 Hz: `size` times normal numbers, with the
+/// autoregressive coefficient `memory`.
+Counted run(InnovationTest& watch, double seconds, double size = 1.0, double memory = 0.0) {
   const CounterNoise noise(7, 0);
   Counted counted;
   std::array<double, 2> e{};
@@ -43,48 +43,48 @@ Counted run(ResidualWatch& watch, double seconds, double size = 1.0, double memo
   return counted;
 }
 
-TEST(ResidualWatch, CallsTheRightModelWrongAsOftenAsAskedFor) {
+TEST(InnovationTest, CallsTheRightModelWrongAsOftenAsAskedFor) {
   // 36 an hour: 1 % of windows of 1 s, half of them to each statistic.
-  ResidualWatch watch(2, {1.0, 36.0});
+  InnovationTest watch(2, {1.0, 36.0});
   const Counted counted = run(watch, 40000.0);
   ASSERT_NEAR(counted.windows, 40000, 2);
   EXPECT_NEAR(counted.mismatched, 200, 45);  // three standard deviations of a Poisson count
   EXPECT_NEAR(counted.coloured, 200, 45);
 }
 
-TEST(ResidualWatch, CallsTheRightModelRightForADay) {
-  ResidualWatch watch(2);
+TEST(InnovationTest, CallsTheRightModelRightForADay) {
+  InnovationTest watch(2);
   const Counted counted = run(watch, 86400.0);
   EXPECT_EQ(counted.mismatched, 0);
   EXPECT_EQ(counted.coloured, 0);
 }
 
-TEST(ResidualWatch, FindsResidualsThatAreTooLargeOrTooSmall) {
+TEST(InnovationTest, FindsResidualsThatAreTooLargeOrTooSmall) {
   for (const double size : {0.6, 2.0}) {
-    ResidualWatch watch(2);
+    InnovationTest watch(2);
     const Counted counted = run(watch, 100.0, size);
     EXPECT_EQ(counted.mismatched, counted.windows) << size;
     EXPECT_EQ(counted.coloured, 0) << size;  // whiteness is of their order, not of their size
   }
 }
 
-TEST(ResidualWatch, ALongerWindowFindsLess) {
-  // 5 % more noise: a tenth more of the mean square, whose deviation is a tenth of 200 numbers, a
-  // hundredth of 24,000.
-  ResidualWatch shorter(2), longer(2, {120.0, 0.005});
+TEST(InnovationTest, ALongerWindowFindsLess) {
+  // 5 % more noise: a tenth more of the mean square, whose standard deviation is a tenth for 200
+  // numbers, a hundredth for 24,000.
+  InnovationTest shorter(2), longer(2, {120.0, 0.005});
   EXPECT_LT(run(shorter, 1200.0, 1.05).mismatched, 20);
   EXPECT_EQ(run(longer, 1200.0, 1.05).mismatched, 9);
 }
 
-TEST(ResidualWatch, FindsWhatLasts) {
-  ResidualWatch watch(2, {10.0, 0.005});
+TEST(InnovationTest, FindsWhatLasts) {
+  InnovationTest watch(2, {10.0, 0.005});
   const Counted counted = run(watch, 200.0, 1.0, 0.3);
   EXPECT_EQ(counted.coloured, counted.windows);
   EXPECT_NEAR(watch.verdict().whiteness, 0.3, 0.07);
 }
 
-TEST(ResidualWatch, ASilentChannelIsNoInnovationOfZero) {
-  ResidualWatch watch(2, {1.0, 36.0});
+TEST(InnovationTest, ASilentChannelIsNoInnovationOfZero) {
+  InnovationTest watch(2, {1.0, 36.0});
   const CounterNoise noise(3, 1);
   for (std::int64_t k = 0; k < 1000; ++k) {
     const std::array<double, 2> e{noise.normal(k), kNone};
@@ -95,8 +95,8 @@ TEST(ResidualWatch, ASilentChannelIsNoInnovationOfZero) {
   EXPECT_NEAR(watch.verdict().mismatch_limit, meanSquareLimit(100, normalLimit(0.01 / 4.0)), 1e-12);
 }
 
-TEST(ResidualWatch, AWindowOfTooFewNumbersGoesOn) {
-  ResidualWatch watch(1);
+TEST(InnovationTest, AWindowOfTooFewNumbersGoesOn) {
+  InnovationTest watch(1);
   const CounterNoise noise(3, 2);
   int windows = 0;
   for (std::int64_t k = 0; k < 101; ++k) {  // ten a window of 1 s
@@ -106,8 +106,8 @@ TEST(ResidualWatch, AWindowOfTooFewNumbersGoesOn) {
   EXPECT_EQ(windows, 2);
 }
 
-TEST(ResidualWatch, TimeThatGoesBackBeginsAnewAndAPairAcrossIsNone) {
-  ResidualWatch watch(1);
+TEST(InnovationTest, TimeThatGoesBackBeginsAnewAndAPairAcrossIsNone) {
+  InnovationTest watch(1);
   double e = 1.0;
   for (int k = 0; k < 90; ++k) {
     watch.take(0.01 * k, &e, 1);
@@ -117,8 +117,8 @@ TEST(ResidualWatch, TimeThatGoesBackBeginsAnewAndAPairAcrossIsNone) {
   EXPECT_TRUE(std::isnan(watch.verdict().time));
 }
 
-TEST(ResidualWatch, AllocatesNothingForASample) {
-  ResidualWatch watch(2);
+TEST(InnovationTest, AllocatesNothingForASample) {
+  InnovationTest watch(2);
   const AllocationGuard guard;
   run(watch, 10.0);
   EXPECT_EQ(guard.allocations(), 0u);
@@ -157,12 +157,12 @@ TEST(AlarmLimits, OfACumulativeSumArePassedOnceInItsRunLength) {
   }
 }
 
-/// What a part of the deviation is an allowance for may be missing, but no more than that.
-TEST(ResidualWatch, AnAllowanceThatIsNotTakenIsNoMismatch) {
+/// The part of the standard deviation that is an allowance may be unused, but no more than that.
+TEST(InnovationTest, AnAllowanceThatIsNotTakenIsNoMismatch) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   for (const auto& [size, least] : {std::pair(0.8, 1.0), std::pair(0.3, 0.3 * 0.3 / 0.64)}) {
-    ResidualWatch watch(1);
+    InnovationTest watch(1);
     double e = 0.0, surest = 0.0;
     for (int k = 0; k <= 1000; ++k) {
       e = size * normal(random);

@@ -1,6 +1,6 @@
-// Standard deviations of what a follower has learned, where residuals are not white: whether 95 %
-// intervals of seeded run-ups through a resonance hold the truth, with hum, a second order of the
-// shaft as run-out and as a force, resolution and outliers in what the probes show.
+// Standard deviations of a state estimator's parameters where residuals are not white: coverage of
+// the 95 % intervals over seeded run-ups through a resonance, with hum, a second order of the shaft
+// as run-out and as a force, resolution and outliers in the probe signals.
 #include "estimation/robust_covariance.h"
 
 #include <fmt/format.h>
@@ -58,7 +58,7 @@ double acceleration(double t) {
   return kFaster / kSeconds * (1.0 - std::cos(turnsOnce(t)));
 }
 
-/// A run-up of a rotor that was drawn, and who follows it.
+/// A run-up of a random rotor, and its state estimator.
 class RunUp {
  public:
   explicit RunUp(unsigned seed) : random_(seed), twin_(followedScene(), settings()) {
@@ -71,9 +71,10 @@ class RunUp {
     run();
   }
 
-  /// How many of stiffness, damping and the two parts of the unbalance are within 1.96 deviations.
+  /// How many of stiffness, damping and the two components of the unbalance are within 1.96
+  /// standard deviations.
   int held() const {
-    const SystemFilter& filter = *twin_.follower.filter(0);
+    const ExtendedKalmanFilter& filter = *twin_.follower.filter(0);
     const Eigen::VectorXd& factors = twin_.follower.deviationFactors(0);
     const Eigen::Matrix2d of_unbalance = filter.unbalanceCovariance(0);
     const Eigen::Vector2d u = filter.unbalance(0);
@@ -216,7 +217,7 @@ TEST(RobustCovariance, IsThatOfTheMeanOfNumbersThatLast) {
   }
 }
 
-/// Numbers that walk forget: what was not white long ago inflates no longer.
+/// Random-walk parameters forget: coloured noise of long ago no longer inflates the covariance.
 TEST(RobustCovariance, ForgetsWhereNumbersWalk) {
   const double walk = 0.01;
   RobustCovariance robust(Eigen::VectorXd::Ones(1), Eigen::VectorXd::Constant(1, walk));
@@ -237,7 +238,7 @@ TEST(RobustCovariance, ForgetsWhereNumbersWalk) {
   EXPECT_LT(robust.factors()[0], 1.6);
 }
 
-/// After a restart they are those of the covariance; where estimates go on, as they were.
+/// After a restart they are those of the covariance; where estimates continue, they are unchanged.
 TEST(RobustCovariance, KeepsItsFactorsUntilItRestarts) {
   RobustCovariance robust(Eigen::VectorXd::Ones(2), Eigen::VectorXd::Zero(2));
   const Eigen::MatrixXd half = 0.5 * Eigen::MatrixXd::Identity(2, 2);

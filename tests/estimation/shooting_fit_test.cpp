@@ -1,5 +1,5 @@
-// Parameters from measured runs: what was put in comes out, with deviations that hold, and what
-// runs cannot tell is said.
+// Parameters from simulated measurements: the true values are recovered, with valid standard
+// deviations, and parameters that the runs do not identify are reported.
 #include "estimation/shooting_fit.h"
 
 #include <fmt/format.h>
@@ -133,7 +133,7 @@ TEST(ShootingFit, FindsADoublePendulum) {
     study.window = window;
     const ShootingFit fit = fitted(study);
     EXPECT_TRUE(fit.converged);
-    // What is left is the error of the fit's method where friction changes its sign.
+    // The remaining difference is the error of the fit's method where friction changes its sign.
     EXPECT_NEAR(found(fit, "center1"), 0.11, 1e-6);
     EXPECT_NEAR(found(fit, "inertia1"), 4.4e-4, 2e-8);
     EXPECT_NEAR(found(fit, "inertia2"), 1.3e-3, 2e-8);
@@ -161,7 +161,7 @@ double torque(double t) {
 
 TEST(ShootingFit, FindsZeroScaleAndDelayOfSensors) {
   StudyRun run = recorded({pendulum(0.7, 0.02, 0.03, 0.05), {0.4, 0.0}, 8.0, 0.0, torque}, "a", 1);
-  // The record says half of the torque and 0.1 N m more, 12 ms late; the angle is off by 0.02 rad.
+  // The record has half of the torque plus 0.1 N m, 12 ms late; the angle is off by 0.02 rad.
   for (std::size_t k = 0; k < run.data.time.size(); ++k) {
     run.data.columns[1].values[k] = 0.5 * torque(run.data.time[k] - 0.012) + 0.1;
     run.data.columns[0].values[k] += 0.02;
@@ -181,8 +181,8 @@ TEST(ShootingFit, FindsZeroScaleAndDelayOfSensors) {
   EXPECT_NEAR(found(fit, "torque.delay"), -0.012, 2e-4);
 }
 
-/// An encoder that is zeroed where a dry joint happens to hang has another zero in each run: one
-/// for all is wrong, and so are then the parameters; a run that is left out has its own, too.
+/// An encoder zeroed where a dry joint happens to stick has a different zero offset in each run: a
+/// common one is wrong, and so are then the parameters; a run left out of the fit has its own, too.
 TEST(ShootingFit, FindsAZeroOfEachRun) {
   const double zeros[] = {0.03, -0.05, 0.04};
   std::vector<StudyRun> runs;
@@ -216,7 +216,7 @@ TEST(ShootingFit, FindsAZeroOfEachRun) {
   EXPECT_TRUE(shared.runs[2].own.empty());
 }
 
-/// A free swing does not tell a mass: all of it may be any number of times as large.
+/// A free swing does not identify a mass: all parameters may be scaled by a common factor.
 TEST(ShootingFit, SaysWhatASwingDoesNotTell) {
   const StudyRun run = recorded({pendulum(0.7, 0.02, 0.03, 0.0), {1.0, 0.0}, 6.0, 1.0e-4}, "a", 1);
   const FitStudy study =
@@ -233,7 +233,7 @@ TEST(ShootingFit, SaysWhatASwingDoesNotTell) {
   for (Eigen::Index i = 0; i < 3; ++i) {
     EXPECT_TRUE(std::isnan(fit.information.deviation[i]));
   }
-  // What it does tell is right.
+  // The identifiable ratios are right.
   EXPECT_NEAR(found(fit, "inertia") / found(fit, "mass"), 0.02 / 0.7, 1e-4);
   EXPECT_NEAR(found(fit, "damping") / found(fit, "mass"), 0.03 / 0.7, 1e-4);
   // Along the rest the times that some have grown are about those that others have shrunk.
@@ -259,10 +259,10 @@ TEST(ShootingFit, WhatHasNoEffectStaysWhereItStarts) {
   }
 }
 
-/// Its weight is balanced by a torque while it moves slowly, at a constant rate: that tells the
-/// ratio of weight and torque's scale, and the encoder's zero, and of inertia and friction nothing.
-/// What is not told stays where it starts, wherever that is, and so does what is told only beside
-/// it, but for what is told.
+/// Its weight is balanced by a torque while it moves slowly, at a constant rate: that identifies
+/// the ratio of weight to torque scale, and the encoder's zero offset, but neither inertia nor
+/// friction. Unidentifiable parameters stay at any start value, and so do those that are
+/// identifiable only in combination with them, up to the identified combination.
 TEST(ShootingFit, ABalancedPendulumKeepsWhatItDoesNotTell) {
   constexpr double kWeight = 0.7 * 0.5 * 9.81;  // N m
   constexpr double kZero = 0.05;                // rad
@@ -301,7 +301,7 @@ TEST(ShootingFit, ABalancedPendulumKeepsWhatItDoesNotTell) {
     EXPECT_NEAR(found(fit, "inertia"), inertia, 0.1 * inertia) << where;
     EXPECT_NEAR(found(fit, "theta.offset"), kZero, 0.02) << where;
     EXPECT_NEAR(found(fit, "mass") / found(fit, "torque.scale") / 0.7, 1.0, 0.05) << where;
-    // No further than if the mass went all the way by itself.
+    // No further than for a change of the mass alone.
     EXPECT_LT(std::fabs(std::log(found(fit, "mass") / mass)),
               std::fabs(std::log(0.7 / mass)) + 0.05)
         << where;

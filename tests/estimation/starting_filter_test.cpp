@@ -1,12 +1,12 @@
-// A filter that begins far off and looks at its start again: it knows how certain it is.
-#include "estimation/starting_filter.h"
-
+// A filter with a poor initial estimate that iterates its initialization: its uncertainty is
+// consistent.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <cmath>
 #include <random>
 
+#include "estimation/iterated_initializer.h"
 #include "scene/scene_reader.h"
 #include "twin/twin.h"
 
@@ -31,15 +31,15 @@ systems:
   return scene;
 }
 
-/// Squares of the parameters' errors by what the filter says of them: 2 on the mean (chi-squared of
-/// two numbers).
+/// Normalized squared errors of the parameters: 2 on the mean (chi-squared of two degrees of
+/// freedom).
 struct Squares {
   double parameters = 0.0;
   double largest_off = 0.0;  // of the length, in parts
 };
 
-/// Follows a swing of six seconds at 500 Hz from parameters that are drawn from what is told of
-/// them: 10 % of the length, half of the damping.
+/// Tracks a swing of six seconds at 500 Hz from parameters drawn from the prior: 10 % of the
+/// length, half of the damping.
 template <class Filter>
 Squares afterASwing(unsigned seed) {
   std::mt19937 random(seed);
@@ -47,7 +47,7 @@ Squares afterASwing(unsigned seed) {
   const double length = 0.1 * normal(random), damping = 0.5 * normal(random);
   SystemFollowing settings;
   settings.parameters = {{"length", {0.1, 0.0}}, {"damping", {0.5, 0.0}}};
-  FollowedChannel encoder;
+  EstimatorChannel encoder;
   encoder.name = "encoder/theta";
   encoder.signal.unit = "rad";
   encoder.deviation = kNoise;
@@ -70,25 +70,25 @@ Squares afterASwing(unsigned seed) {
   return {error.dot(p.inverse() * error), std::fabs(error[0])};
 }
 
-TEST(StartingFilter, ThatBeginsFarOffKnowsHowCertainItIs) {
+TEST(IteratedInitializer, ThatBeginsFarOffKnowsHowCertainItIs) {
   constexpr int kRuns = 20;
   double looked_again = 0.0, once = 0.0, largest = 0.0;
   for (unsigned seed = 1; seed <= kRuns; ++seed) {
-    const Squares again = afterASwing<StartingFilter>(seed);
+    const Squares again = afterASwing<IteratedInitializer>(seed);
     looked_again += again.parameters / kRuns;
     largest = std::max(largest, again.largest_off);
-    once += afterASwing<SystemFilter>(seed).parameters / kRuns;
+    once += afterASwing<ExtendedKalmanFilter>(seed).parameters / kRuns;
   }
   EXPECT_NEAR(looked_again, 2.0, 5.0 * 2.0 / std::sqrt(kRuns));
   EXPECT_LT(largest, 2.0e-3);
   EXPECT_GT(once, 2.0 * looked_again) << "what a second look is for";
 }
 
-/// One that knows enough keeps nothing, and is the plain filter to the bit.
-TEST(StartingFilter, ThatKnowsEnoughKeepsNothing) {
+/// One with a good prior skips the iteration.
+TEST(IteratedInitializer, ThatKnowsEnoughKeepsNothing) {
   SystemFollowing settings;
   settings.parameters = {{"length", {0.01, 0.0}}, {"damping", {0.1, 0.0}}};
-  StartingFilter filter(armWith(kLength, kDamping), 0, settings, {});
+  IteratedInitializer filter(armWith(kLength, kDamping), 0, settings, {});
   filter.begin({0, {}, 0.0});
   EXPECT_FALSE(filter.looksAtItsStart());
 }

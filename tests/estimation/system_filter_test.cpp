@@ -1,7 +1,5 @@
-// The filter of a followed system against known answers: a stationary Kalman filter worked out
-// elsewhere, motions whose parameters are known, its own statistics.
-#include "estimation/system_filter.h"
-
+// The extended Kalman filter of a system against known results: a stationary Kalman filter computed
+// independently, motions with known parameters, its own statistics.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -13,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "estimation/extended_kalman_filter.h"
 #include "scene/scene_reader.h"
 #include "twin/twin.h"
 
@@ -23,8 +22,8 @@ BuiltScene sceneOf(const std::string& text) {
   return build(readScene(YAML::Load(text), "a test"));
 }
 
-FollowedChannel displacement(const char* name, double direction, double deviation) {
-  FollowedChannel channel;
+EstimatorChannel displacement(const char* name, double direction, double deviation) {
+  EstimatorChannel channel;
   channel.name = name;
   channel.signal.kind = SignalSpec::Kind::kDisplacement;
   channel.signal.direction = direction;
@@ -33,8 +32,8 @@ FollowedChannel displacement(const char* name, double direction, double deviatio
   return channel;
 }
 
-FollowedChannel angle(const char* name, std::size_t coordinate, double deviation) {
-  FollowedChannel channel;
+EstimatorChannel angle(const char* name, std::size_t coordinate, double deviation) {
+  EstimatorChannel channel;
   channel.name = name;
   channel.signal.coordinate = coordinate;
   channel.signal.unit = "rad";
@@ -50,7 +49,7 @@ ShaftInstant steadyShaft(std::int64_t time, double speed) {
 /// E|v|^2 = 1e-12 m^2, under a white acceleration of 1e-4 (m/s^2)^2/Hz and a 1X acceleration that
 /// wanders by 1e-2 (m/s^2)^2/s: the stationary filter of a separate computation (complex Riccati
 /// iteration).
-TEST(SystemFilter, ReachesTheStationaryKalmanFilter) {
+TEST(ExtendedKalmanFilter, ReachesTheStationaryKalmanFilter) {
   const double mass = 1.0, speed = 120.0;
   const BuiltScene scene = sceneOf(R"(
 name: rig
@@ -67,9 +66,9 @@ drives:
   const double per_axis = std::sqrt(0.5);
   settings.disturbance = per_axis * 1.0e-2;
   settings.unbalance = {1.0e-3, per_axis * 0.1 / (mass * speed * speed)};
-  SystemFilter filter(scene, 0, settings,
-                      {displacement("probes/x", 0.0, per_axis * 1.0e-6),
-                       displacement("probes/y", M_PI / 2.0, per_axis * 1.0e-6)});
+  ExtendedKalmanFilter filter(scene, 0, settings,
+                              {displacement("probes/x", 0.0, per_axis * 1.0e-6),
+                               displacement("probes/y", M_PI / 2.0, per_axis * 1.0e-6)});
   filter.begin(steadyShaft(0, speed));
   const auto deviations = [&] {
     return std::array<double, 3>{
@@ -103,8 +102,8 @@ systems:
     initial: {theta: 1.2}
 )";
 
-/// The arm's motion, sampled every second step with noise, taken by a filter that begins with
-/// other parameters.
+/// The arm's motion, sampled every second step with noise, processed by a filter with different
+/// initial parameters.
 class ArmRun {
  public:
   ArmRun(const BuiltScene& model, const SystemFollowing& settings, unsigned seed)
@@ -113,7 +112,7 @@ class ArmRun {
         random_(seed) {
     filter.begin({0, {}, 0.0});
   }
-  void goOn(double seconds) {
+  void resume(double seconds) {
     std::normal_distribution<double> noise(0.0, kNoise);
     std::vector<double> record(machine_.layout().size);
     const std::int64_t end = machine_.stepCount() + std::llround(seconds * 1000.0);
@@ -131,7 +130,7 @@ class ArmRun {
   }
 
   static constexpr double kNoise = 0.002;  // rad
-  SystemFilter filter;
+  ExtendedKalmanFilter filter;
   double q = 0.0, v = 0.0;  // of the machine
   std::vector<double> innovations;
 
@@ -146,22 +145,22 @@ BuiltScene armWith(double length, double damping) {
   return scene;
 }
 
-TEST(SystemFilter, FindsLengthAndDampingOfASwing) {
+TEST(ExtendedKalmanFilter, FindsLengthAndDampingOfASwing) {
   SystemFollowing settings;
   settings.parameters = {{"length", {0.1, 0.0}}, {"damping", {0.5, 0.0}}};
   const BuiltScene model = armWith(0.31, 0.006);
   ArmRun run(model, settings, 1);
-  run.goOn(20.0);
+  run.resume(20.0);
   EXPECT_NEAR(run.filter.parameter(0), 0.3, 6.0 * run.filter.parameterDeviation(0));
   EXPECT_NEAR(run.filter.parameter(1), 0.004, 6.0 * run.filter.parameterDeviation(1));
   EXPECT_LT(run.filter.parameterDeviation(0), 1.0e-4);
   EXPECT_LT(run.filter.parameterDeviation(1), 1.0e-4);
 }
 
-/// Over many runs, each with a start drawn from what the filter is told of it, the errors are what
-/// the filter says of them (the mean of the normalized squares, chi-squared of two numbers, is 2),
-/// and so are the innovations.
-TEST(SystemFilter, KnowsHowCertainItIs) {
+/// Over many runs, each with a start drawn from the filter's prior, the errors match its covariance
+/// (the mean of the normalized squares, chi-squared of two degrees of freedom, is 2), and so do the
+/// innovations.
+TEST(ExtendedKalmanFilter, KnowsHowCertainItIs) {
   SystemFollowing settings;
   settings.parameters = {{"length", {0.01, 0.0}}, {"damping", {0.1, 0.0}}};
   std::mt19937 random(3);
@@ -173,7 +172,7 @@ TEST(SystemFilter, KnowsHowCertainItIs) {
     const double length = std::log(0.3) + 0.01 * normal(random);
     const double damping = std::log(0.004) + 0.1 * normal(random);
     ArmRun run(armWith(std::exp(length), std::exp(damping)), settings, seed);
-    run.goOn(6.0);
+    run.resume(6.0);
     const KalmanFilter& filter = run.filter.filter();
     Eigen::Vector4d error = filter.state();
     error[0] -= run.q;
@@ -200,7 +199,7 @@ class UnscentedArm {
   explicit UnscentedArm(double length) : x_(1.2, 0.0, std::log(length)) {
     p_ = Eigen::Vector3d(1.0, 100.0, 0.01 * 0.01).asDiagonal();
   }
-  void goOn(double h) {
+  void resume(double h) {
     propagate([h](Eigen::Vector3d x) {
       const double length = std::exp(x[2]);
       const auto rate = [length](const Eigen::Vector3d& y) {
@@ -244,11 +243,12 @@ class UnscentedArm {
   Eigen::Matrix3d p_;
 };
 
-/// Two filters that share nothing but the problem tell the same length, as certain.
-TEST(SystemFilter, AgreesWithAnUnscentedFilter) {
+/// Two filters that share nothing but the problem give the same length, with the same uncertainty.
+TEST(ExtendedKalmanFilter, AgreesWithAnUnscentedFilter) {
   SystemFollowing settings;
   settings.parameters = {{"length", {0.01, 0.0}}};
-  SystemFilter filter(armWith(0.302, 0.004), 0, settings, {angle("encoder/theta", 0, 0.002)});
+  ExtendedKalmanFilter filter(armWith(0.302, 0.004), 0, settings,
+                              {angle("encoder/theta", 0, 0.002)});
   UnscentedArm unscented(0.302);
   Twin machine(sceneOf(kArm));
   std::vector<double> record(machine.layout().size);
@@ -261,7 +261,7 @@ TEST(SystemFilter, AgreesWithAnUnscentedFilter) {
     const double measured = machine.layout().system(record.data(), 0).q()[0] + noise(random);
     filter.goTo({machine.stepCount() * 1'000'000, {}, 0.0});
     filter.take(0, measured);
-    unscented.goOn(0.001);
+    unscented.resume(0.001);
     unscented.take(measured, 0.002);
   }
   const double deviation = filter.parameterDeviation(0) / filter.parameter(0);
@@ -269,10 +269,11 @@ TEST(SystemFilter, AgreesWithAnUnscentedFilter) {
   EXPECT_NEAR(std::log(filter.parameter(0) / unscented.length()), 0.0, deviation);
 }
 
-/// A rotor in a run-up through its critical speed in ten seconds, its probes with noise of 3 um;
-/// what is put for % are parameters of the machine and of the model.
+/// A rotor in a run-up through its critical speed in ten seconds, its probes with noise of 3 um; %
+/// stands for parameters of the plant and of the model.
 void runUp(const std::string& machine_parameters, const std::string& model_parameters,
-           const SystemFollowing& settings, const std::function<void(const SystemFilter&)>& tell) {
+           const SystemFollowing& settings,
+           const std::function<void(const ExtendedKalmanFilter&)>& tell) {
   const auto with = [&](const std::string& parameters) {
     std::string scene = R"(
 name: rig
@@ -287,7 +288,7 @@ systems:
   };
   Twin machine(sceneOf(with(machine_parameters)));
   const BuiltScene model = sceneOf(with(model_parameters));
-  SystemFilter filter(
+  ExtendedKalmanFilter filter(
       model, 0, settings,
       {displacement("probes/x", 0.0, 3.0e-6), displacement("probes/y", M_PI / 2.0, 3.0e-6)});
   std::mt19937 random(7);
@@ -310,12 +311,12 @@ systems:
 }
 
 /// An unbalance of 40 g mm that the model has not: within 2 % and 2 degrees.
-TEST(SystemFilter, FindsAnUnbalanceInARunUp) {
+TEST(ExtendedKalmanFilter, FindsAnUnbalanceInARunUp) {
   SystemFollowing settings;
   settings.disturbance = 1.0e-3;
   settings.unbalance = {1.0e-3, 0.0};
   const std::string rotor = "mass: 2.0, stiffness: 20000.0, damping: 20.0, eccentricity: ";
-  runUp(rotor + "2.0e-5", rotor + "0.0", settings, [](const SystemFilter& filter) {
+  runUp(rotor + "2.0e-5", rotor + "0.0", settings, [](const ExtendedKalmanFilter& filter) {
     const Eigen::Vector2d u = filter.unbalance(0);
     EXPECT_NEAR(u.norm(), 4.0e-5, 0.02 * 4.0e-5);
     EXPECT_NEAR(std::atan2(u.y(), u.x()), 0.0, 2.0 * M_PI / 180.0);
@@ -326,37 +327,37 @@ TEST(SystemFilter, FindsAnUnbalanceInARunUp) {
   });
 }
 
-/// One that is negative keeps its sign; what is known of it is in parts of its size.
-TEST(SystemFilter, FindsANegativeParameter) {
+/// A negative parameter keeps its sign; its uncertainty is relative to its magnitude.
+TEST(ExtendedKalmanFilter, FindsANegativeParameter) {
   SystemFollowing settings;
   settings.disturbance = 1.0e-3;
   settings.parameters = {{"cross_coupling", {0.4, 0.0}}};
   const std::string rotor =
       "mass: 2.0, stiffness: 20000.0, damping: 20.0, eccentricity: 2.0e-5, cross_coupling: ";
-  SystemFilter begun(sceneOf(R"(
+  ExtendedKalmanFilter begun(sceneOf(R"(
 name: rig
 step: 0.0005
 drives: {shaft: {speed: 60.0}}
 systems:
   rotor: {model: jeffcott_rotor, drive: shaft, parameters: {)" +
-                             rotor + "-400.0}}\n"),
-                     0, settings, {displacement("probes/x", 0.0, 3.0e-6)});
+                                     rotor + "-400.0}}\n"),
+                             0, settings, {displacement("probes/x", 0.0, 3.0e-6)});
   EXPECT_DOUBLE_EQ(begun.parameter(0), -400.0);
   EXPECT_DOUBLE_EQ(begun.parameterDeviation(0), 0.4 * 400.0);
-  runUp(rotor + "-300.0", rotor + "-400.0", settings, [](const SystemFilter& filter) {
+  runUp(rotor + "-300.0", rotor + "-400.0", settings, [](const ExtendedKalmanFilter& filter) {
     EXPECT_NEAR(filter.parameter(0), -300.0, 4.0 * filter.parameterDeviation(0));
     EXPECT_LT(filter.parameterDeviation(0), 60.0);
   });
 }
 
 /// Stiffness 3 % and damping 30 % off at first: within 0.5 % and 20 % after one run-up.
-TEST(SystemFilter, FindsStiffnessAndDampingInARunUp) {
+TEST(ExtendedKalmanFilter, FindsStiffnessAndDampingInARunUp) {
   SystemFollowing settings;
   settings.disturbance = 1.0e-3;
   settings.parameters = {{"stiffness", {0.03, 0.0}}, {"damping", {0.3, 0.0}}};
   runUp("mass: 2.0, stiffness: 20000.0, damping: 20.0, eccentricity: 2.0e-5",
         "mass: 2.0, stiffness: 20600.0, damping: 26.0, eccentricity: 2.0e-5", settings,
-        [](const SystemFilter& filter) {
+        [](const ExtendedKalmanFilter& filter) {
           EXPECT_NEAR(filter.parameter(0), 20000.0, 0.005 * 20000.0);
           EXPECT_NEAR(filter.parameter(1), 20.0, 0.2 * 20.0);
           EXPECT_LT(filter.parameterDeviation(0), 0.005 * 20000.0);

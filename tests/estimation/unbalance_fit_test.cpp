@@ -38,7 +38,7 @@ std::vector<RotorProbe> twoProbes(double noise) {
   return {x, y};
 }
 
-/// What the disc of mass 2 kg, out of balance by `unbalance`, does in a run-up from rest: by its
+/// Response of the disc of mass 2 kg with the unbalance `unbalance` in a run-up from rest: by its
 /// exact solution in the shaft's own coordinates, by small Runge-Kutta steps.
 struct JeffcottRun {
   Complex unbalance = std::polar(2.0e-4, 0.9);  // kg m
@@ -203,8 +203,8 @@ TEST(UnbalanceFit, DoesNotTellRunOutFromUnbalanceAtOneSpeedAndSaysSo) {
   EXPECT_FALSE(one.planes[0].told);
   EXPECT_FALSE(one.run_outs[0].told);
   ASSERT_EQ(one.untold.size(), 2u);  // two real directions: one of each part
-  for (const UntoldCombination& untold : one.untold) {
-    // In them the run-out is what the unbalance makes of the disc, the other way round.
+  for (const UnidentifiableCombination& untold : one.untold) {
+    // In them the run-out is the response of the disc to the unbalance, with opposite sign.
     const Complex x = untold.planes[0] * 2025.0 / Complex(7200.0 - 4050.0, 540.0);
     EXPECT_LT(std::abs(untold.run_outs[0] + x), 1e-6 * std::abs(x));
     EXPECT_LT(std::abs(untold.run_outs[1] - Complex(0.0, 1.0) * x), 1e-6 * std::abs(x));
@@ -261,7 +261,7 @@ TEST(DrivenWhirl, IsTheRunUpOfTheEquationsOfMotion) {
   rotor.forces.push_back({Eigen::Vector4cd(0.3, Complex(0.0, -0.2), 0.0, 0.0), 1, false});
   DrivenWhirl whirl(rotor, rotor.forces);
   whirl.start(0.0);
-  // 12 rad/s^2 through both critical speeds; the equations as they stand by Runge-Kutta.
+  // 12 rad/s^2 through both critical speeds; the unsimplified equations by Runge-Kutta.
   Eigen::Vector4d q = whirl.amplitudes().rowwise().sum().real(), v = Eigen::Vector4d::Zero();
   const auto acceleration = [&](double t, const Eigen::Vector4d& x, const Eigen::Vector4d& rate) {
     const Linearization at = rotor.matrices(12.0 * t);

@@ -1,8 +1,8 @@
-// What one step of a method makes of a linear system at rest speed or turning, M q'' + B q' + K q =
-// 0 (B = C + G, K with the circulatory part): the largest growth a step, predicted from the
-// spectrum of the system and the method's stability function (Hairer & Wanner, Solving Ordinary
-// Differential Equations II, IV.2-3), independently of the step's own code; of a method with a past
-// from its recurrence, as `auto` does.
+// Amplification of a linear system by one step of a method, non-rotating or rotating, M q'' + B q'
+// + K q = 0 (B = C + G, K with the circulatory part): the largest growth per step, predicted from
+// the spectrum of the system and the method's stability function (Hairer & Wanner, Solving Ordinary
+// Differential Equations II, IV.2-3), independently of the step's own code; for a multistep method
+// from its recurrence, as in `auto`.
 #pragma once
 
 #include <Eigen/LU>

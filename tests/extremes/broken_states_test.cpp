@@ -1,6 +1,6 @@
-// A state that is no number - an infinity or a NaN, from a start or in the middle of a run, in any
-// coordinate or rate, of any model and method - stops its system, which says so; the systems beside
-// it go on as if it had never been there, bit for bit.
+// A non-finite state - an infinity or a NaN, from a start or in the middle of a run, in any
+// coordinate or rate, of any model and method - stops its system with an error; the other systems
+// continue bit-identically, as without it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ std::vector<double> record(const Twin& twin) {
   return r;
 }
 
-/// Bits of the first three systems, which do not know of a fourth.
+/// Bit-identity of the first three systems, which are independent of the fourth.
 bool sameNeighbours(const Twin& a, const Twin& b) {
   const std::vector<double> x = record(a);
   const std::vector<double> y = record(b);

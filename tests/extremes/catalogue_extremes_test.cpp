@@ -1,5 +1,5 @@
-// The systems of the lecture notes where their numbers leave the ordinary: at a bifurcation, stiff,
-// lopsided, overdamped, balanced on a saddle, and swinging for eleven days.
+// The systems of the lecture notes with extreme parameters: at a bifurcation, stiff, asymmetric,
+// overdamped, balanced on a saddle, and swinging for eleven days.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,8 +25,8 @@ double firstZero(RunningSystem& system, int most_steps) {
   return std::nan("");
 }
 
-// w^2 = g/l: no linear stiffness is left, th'' = -(g/l) th^3 / 2 near the vertical. A quarter swing
-// takes (2 / (A w)) K, K = integral of du / sqrt(1 - u^4) = 1.3110287771461: the smaller the
+// w^2 = g/l: the linear stiffness vanishes, th'' = -(g/l) th^3 / 2 near the vertical. A quarter
+// swing takes (2 / (A w)) K, K = integral of du / sqrt(1 - u^4) = 1.3110287771461: the smaller the
 // slower.
 TEST(Extremes, AtTheBirthOfTheConeThePeriodGoesAsOneOverTheAmplitude) {
   for (const double amplitude : {0.1, 0.01, 0.001}) {
@@ -94,7 +94,7 @@ TEST(Extremes, AHeavySidedDiscGainsEquilibriaAsItsSpringSoftens) {
   EXPECT_EQ(count(0.2172336282 - 1e-6), 5u) << "a pair to each side";
 }
 
-// k -> infinity: the slider stands still on its rod, and what is left is a rigid pendulum with
+// k -> infinity: the slider is fixed on its rod, and the system becomes a rigid pendulum with
 // theta'' = -(m0 r + m l / 2) g sin(theta) / (m0 r^2 + m l^2 / 3).
 TEST(Extremes, AnEverStifferSpringMakesARigidPendulum) {
   const double m0 = 1.0, m = 0.5, l = 1.2, r = 0.5, g = 9.81;
@@ -150,7 +150,7 @@ TEST(Extremes, DoublePendulumsWithMassesAThousandAndMoreApart) {
     s.q = {0.3, 0.2};
     s.v = {0.0, 0.0};
     // The light joint of a heavy lower bob rings at some thousand rad/s as it passes the straight
-    // line: it takes steps of 20 us to follow. (At a millisecond the energy residual tells.)
+    // line: that requires steps of 20 us. (At a millisecond the energy residual shows the error.)
     RunningSystem swing(s, "gauss_legendre_6", ratio > 1.0 ? kMillisecond / 50 : kMillisecond);
     const double start = swing.energies().jacobi;
     ASSERT_EQ(swing.run(ratio > 1.0 ? 500000 : 10000), StepStatus::kOk);
@@ -179,7 +179,7 @@ TEST(Extremes, AnOverdampedBeamCreepsBackAtItsSlowRoot) {
   }
 }
 
-// Within 1e-9 of a saddle: the deviation grows as the linear motion says, for twenty of its
+// Within 1e-9 of a saddle: the deviation grows as in the linearized motion, for twenty of its
 // e-foldings.
 TEST(Extremes, NearASaddleADeviationOfANanoradianGrowsAsItShould) {
   RunningSystem::Setup s;
@@ -195,7 +195,8 @@ TEST(Extremes, NearASaddleADeviationOfANanoradianGrowsAsItShould) {
   RunningSystem::Setup both;
   both.model = "double_pendulum";
   both.parameters = {{"mass1", 1.0}, {"mass2", 1.0}, {"length1", 1.0}, {"length2", 1.0}};
-  both.q = {kPi + 1e-9, kPi + std::sqrt(2.0) * 1e-9};  // along the slower of its two ways down
+  // along the slower of its two unstable directions
+  both.q = {kPi + 1e-9, kPi + std::sqrt(2.0) * 1e-9};
   RunningSystem top(both, "gauss_legendre_6", kMillisecond);
   ASSERT_EQ(top.run(2000), StepStatus::kOk);
   const double slow = std::sqrt((2.0 - std::sqrt(2.0)) * both.gravity);

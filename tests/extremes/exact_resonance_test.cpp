@@ -3,7 +3,7 @@
 //   z = 0, z' = -i e p / 2:   z = -i (e p t / 2) e^(ipt)
 //
 // is the whole motion: the whirl grows in proportion to time, a quarter turn behind the unbalance,
-// for as long as it is left to. In full length (measured.h) that is a month.
+// for the whole run. In full length (measured.h) that is a month.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ double relativeError(const RunningSystem& rotor, std::int64_t steps, std::int64_
   return static_cast<double>(std::abs(Complex(rotor.q(0), rotor.q(1)) - exact) / radius);
 }
 
-// The free whirl is turned with the relative rounding of its step, 1.3e-16 of p t at most
+// The phase of the free whirl has the relative rounding of its step, 1.3e-16 of p t at most
 // (long_runs_test).
 TEST(AtTheExactCriticalSpeed, TheWhirlGrowsInProportionToTime) {
   for (const std::int64_t step : {kMillisecond, 100 * kMillisecond, 10 * kSecond}) {
@@ -61,8 +61,8 @@ TEST(AtTheExactCriticalSpeed, TheWhirlGrowsInProportionToTime) {
 
 class EveryMethodAtResonance : public testing::TestWithParam<std::string> {};
 
-// A method's own frequency detunes it: after p t radians the whirl is beside the exact one by half
-// of that times p t, and in the end it beats.
+// A method's numerical frequency detunes it: after p t radians the whirl deviates from the exact
+// one by half of the detuning times p t, and in the end it shows beats.
 TEST_P(EveryMethodAtResonance, GrowsAsItsOwnFrequencyAllows) {
   constexpr std::int64_t kSteps = 10000;
   constexpr double kStepAngle = kP * 1e-3;  // p h

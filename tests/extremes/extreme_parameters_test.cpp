@@ -1,5 +1,5 @@
-// Rotors whose damping, stiffness and speed lie decades beyond the ordinary, against their closed
-// forms in extended precision, by every method that can follow them.
+// Rotors with damping, stiffness and speed decades beyond the ordinary, against their closed forms
+// in extended precision, by every suitable method.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ ClosedFormWhirl axis(const RunningSystem::Setup& s, std::size_t i) {
                          i == 0 ? Complex(force) : aside * force, w, s.q[i], s.v[i]);
 }
 
-/// Largest error of a coordinate over `looks` looks, relative to the largest value so far.
+/// Largest error of a coordinate over `looks` samples, relative to the largest value so far.
 double largestError(const RunningSystem::Setup& s, const std::string& method, std::int64_t step,
                     std::int64_t steps, int looks) {
   RunningSystem rotor(s, method, step);
@@ -85,8 +85,9 @@ TEST_P(EveryMethodOfExtremes, FollowsDampingFromNoneToAHundredTimesCritical) {
   expectWithin(bound, largest, "zeta 0 to 100 by " + GetParam() + ", relative error");
 }
 
-// Speeds over fourteen decades. The exact step takes up to 100 rad of the shaft in a millisecond;
-// the others take the faster of whirl and shaft by 0.01 rad, semi-implicit Euler by a tenth of it.
+// Speeds over fourteen decades. In the exact step the shaft turns by up to 100 rad in a
+// millisecond; in the others the faster of whirl and shaft by 0.01 rad, in semi-implicit Euler by a
+// tenth of it.
 TEST_P(EveryMethodOfExtremes, FollowsShaftSpeedsFromZeroToAHundredThousand) {
   constexpr double kP = 10.0;
   const int order = orderOf(GetParam());
@@ -109,9 +110,9 @@ INSTANTIATE_TEST_SUITE_P(OfExtremes, EveryMethodOfExtremes,
                          [](const auto& test) { return test.param; });
 
 // Far above its critical speed the rotor turns about its mass centre, r = -e. The mass centre's
-// circle has the radius e (p/w)^2 |1 + 2 i zeta w/p|, here e times 1e-4. Two forces
-// of e w^2, each rounded to 1e-16 of it, would bend the shaft by 1e-16 (w/p)^2 e, here 1e-8 e, if
-// their rounding stood still; it turns, and what is left of it is (w/p) times less.
+// circle has the radius e (p/w)^2 |1 + 2 i zeta w/p|, here e times 1e-4. Two forces of e w^2, each
+// rounded to 1e-16 of it, would bend the shaft by 1e-16 (w/p)^2 e, here 1e-8 e, if their rounding
+// error were constant; it rotates, and its effect is (w/p) times smaller.
 TEST(FarAboveTheCriticalSpeed, TheRotorTurnsAboutItsMassCentre) {
   constexpr double kP = 10.0;
   constexpr double kSpeed = 1e5;
@@ -129,7 +130,7 @@ TEST(FarAboveTheCriticalSpeed, TheRotorTurnsAboutItsMassCentre) {
 // step takes both at once: 1000 rad of the fast one in a millisecond.
 TEST(StiffnessRatioOfABillionThousands, OfTwoAxesIsStepped) {
   const RunningSystem::Setup s = rotorOf(1.0, 0.0, 0.7, 1e12);
-  // The fast axis turns with a relative rounding of 1e-16 for p t = 1e7 rad, or has p h = 1000
+  // The fast axis rotates with a relative rounding of 1e-16 for p t = 1e7 rad, or has p h = 1000
   // rounded by half a unit, once.
   expectWithin(1e-7, largestError(s, "exponential", kMillisecond, 10000, 10),
                "stiffness ratio 1e12, both axes, exact step of 1 ms");

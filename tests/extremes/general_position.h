@@ -37,7 +37,7 @@ inline std::vector<MovingVariant> everyMovingVariant() {
   return all;
 }
 
-/// A method that looks for its stages until they no longer change.
+/// An implicit method that iterates for its stages.
 inline bool iterates(const std::string& integrator) {
   return integrator.rfind("gauss_legendre", 0) == 0 || integrator == "implicit_midpoint";
 }

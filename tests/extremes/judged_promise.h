@@ -1,4 +1,4 @@
-// What `integrator: auto` promised of a scene beside what became of it.
+// The error bound of `integrator: auto` for a scene against its actual error.
 #pragma once
 
 #include <fmt/format.h>
@@ -29,16 +29,17 @@ struct Sampling {
   }
 };
 
-/// How many promises could be judged, and over what part of the time.
-class JudgedPromises {
+/// How many error bounds could be checked, and over what share of the time.
+class EvaluatedBounds {
  public:
-  explicit JudgedPromises(double rounding) : rounding_(rounding) {}
+  explicit EvaluatedBounds(double rounding) : rounding_(rounding) {}
 
-  /// error: of what was promised, own: of its judge; below `rounding` they are not told apart.
-  void judge(const SystemSpec& spec, const Promise& p, const Sampling& sampling,
+  /// error: of the bounded solution, own: of the reference; below `rounding` they are
+  /// indistinguishable.
+  void judge(const SystemSpec& spec, const ErrorBound& p, const Sampling& sampling,
              const ErrorCurve& error, const ErrorCurve& own) {
     const double interval = 1.0e-9 * static_cast<double>(sampling.interval);
-    // As far as the judge itself is good: there, not at some later time when all have parted.
+    // Only while the reference is accurate, not at a later time after all solutions have diverged.
     const auto isKnown = [&](std::size_t sample) {
       return own.position(sample) <= 0.1 * std::max(spec.tolerance, error.position(sample));
     };

@@ -36,10 +36,10 @@ double energy(const RunningSystem& rotor) {
   return (e.kinetic + e.potential) / (kRadius * kRadius * kP * kP);
 }
 
-// The step's matrix holds the angle p h it turns a free whirl by to half a unit of a double, and
-// the step 0.001 s itself is rounded by 2e-17 of it: the same error in every step, so the phase
-// comes to be off by up to 1.1e-16 + 2e-17 of p t. For a month (1e9 steps) below 1e-9 rad that
-// allows p t = 7.6e6, p = 7.6 rad/s. A radius and an energy are kept likewise.
+// The step's matrix represents the angle p h of a free whirl to half a unit of a double, and the
+// step 0.001 s itself is rounded by 2e-17 of it: the same error in every step, so the phase error
+// grows to 1.1e-16 + 2e-17 of p t. For a month (1e9 steps) below 1e-9 rad that allows p t = 7.6e6,
+// p = 7.6 rad/s. The same holds for a radius and an energy.
 TEST(AMonthOfSteps, KeepsEnergyAndPhaseOfAFreeWhirl) {
   const std::int64_t steps = runOf(1000000, 1000000000);
   for (const double p : {7.6, 16.0, 100.0}) {
@@ -66,8 +66,8 @@ TEST(AMonthOfSteps, KeepsEnergyAndPhaseOfAFreeWhirl) {
   }
 }
 
-// What an instrument shows of a rotor in service: the lag of its steady whirl behind the unbalance.
-// The free whirl has died and its errors with it; the shaft's angle loses nothing.
+// As an instrument would show a rotor in service: the lag of its steady whirl behind the unbalance.
+// The free whirl has decayed and its errors with it; the shaft's angle keeps its accuracy.
 TEST(AMonthOfSteps, LosesNothingOfTheLagOfASteadyWhirl) {
   const double speed = 18.5;
   const double zeta = 0.05;
@@ -91,8 +91,8 @@ TEST(AMonthOfSteps, LosesNothingOfTheLagOfASteadyWhirl) {
   expectWithin(1e-13, static_cast<double>(std::abs(std::abs(found) - 1.0L)), "radius" + after);
 }
 
-// With unbalance, beside its critical speed: the shaft's turning and the rotor's own whirl beat for
-// a month. The complete motion in extended precision is the reference.
+// With unbalance, near its critical speed: synchronous and free whirl beat for a month. The
+// complete motion in extended precision is the reference.
 TEST(AMonthOfSteps, StaysOnTheClosedFormOfAnUnbalancedRotor) {
   const double speed = 18.5;
   const double eccentricity = 1e-4;
@@ -117,20 +117,20 @@ TEST(AMonthOfSteps, StaysOnTheClosedFormOfAnUnbalancedRotor) {
         std::fmax(residual, std::fabs(e.jacobi - start - rotor.work()) / (e.kinetic + e.potential));
   }
   const std::string after = fmt::format(" after {:.0e} steps", static_cast<double>(steps));
-  // Errors as above, p t = 1.6e7 rad in full, and what they beat with.
+  // Errors as above, p t = 1.6e7 rad in full, modulated by the beats.
   expectWithin(fullLength() ? 3e-9 : 1e-11, error, "error of an unbalanced whirl / r" + after);
   expectWithin(fullLength() ? 1e-9 : 1e-11, residual, "energy residual of it" + after);
 }
 
 class EveryMethodInALongRun : public testing::TestWithParam<std::string> {};
 
-// What a method's stability function R says of a whirl e^(ipt): |R(i z)|^2 = 1 - z^6/72 + z^8/576
-// for Runge-Kutta 4; 1 for the implicit ones and the exact one. Semi-implicit Euler conserves
-// T + V - h k r.v / 2 and Verlet T + V - z^2 V / 4: on an orbit that is a circle but for z and z^2
-// T + V swings by z^2 and z^4 and no more. Stoermer 6 gains 7/48 z^8 a step: what its sum leaves
-// out of the sine, 863/12096 of the sixth difference and 275/4032 of the seventh, lags by half of
-// each step that it is taken back from. Those not named here are of order 7 or more, or conserve
-// it: 1 - O(z^8) at the worst, z^8 = 4e-15 with a factor of 1e-4 or less.
+// Amplification of a whirl e^(ipt) by a method's stability function R: |R(i z)|^2 = 1 - z^6/72 +
+// z^8/576 for Runge-Kutta 4; 1 for the implicit methods and the exact one. Semi-implicit Euler
+// conserves T + V - h k r.v / 2 and Verlet T + V - z^2 V / 4: on an orbit that is a circle up to
+// terms in z and z^2, T + V oscillates by z^2 and z^4 and no more. Stoermer 6 gains 7/48 z^8 a
+// step: the terms that its sum omits, 863/12096 of the sixth difference and 275/4032 of the
+// seventh, lag by half a step each. Methods not named here are of order 7 or more, or conserve it:
+// 1 - O(z^8) at worst, z^8 = 4e-15 with a factor of 1e-4 or less.
 TEST_P(EveryMethodInALongRun, GainsAndLosesTheEnergyItsStabilityFunctionSays) {
   RunningSystem rotor(freeWhirl(), GetParam(), kMillisecond);
   const std::int64_t steps = runOf(200000, 100000000);

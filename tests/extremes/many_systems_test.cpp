@@ -1,5 +1,5 @@
-// Ten thousand systems in one scene: it is read, built and stepped like one of them, each moves as
-// it would alone, bit for bit, and each takes the room that one takes.
+// Ten thousand systems in one scene: each is read, built and stepped as if alone, moves
+// bit-identically, and uses the memory of a single one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace many_systems_test {
 
 constexpr int kMany = 10000;
 
-/// Every third a rotor on the shaft, at a speed of its own, or a pendulum; no two alike.
+/// Every third a rotor on the shaft, one with a separate speed, or a pendulum; all different.
 std::string systemText(int i) {
   const double part = static_cast<double>(i) / kMany;
   if (i % 3 == 0) {
@@ -96,7 +96,7 @@ TEST(TenThousandSystems, MoveAsEachWouldAlone) {
   EXPECT_EQ(observer.whirl(0).x, all.layout().system(together.data(), 0).q()[0]);
 }
 
-/// What a scene takes: numbers in a record, allocations to read and to build it, to step it.
+/// Resources of a scene: numbers in a record, allocations to read and to build it, to step it.
 struct Room {
   explicit Room(const std::string& text) {
     const AllocationGuard reading;
@@ -123,7 +123,7 @@ TEST(TenThousandSystems, TakeTheRoomOfEachInProportion) {
   const Room tenth(sceneText(0, 10));
   const Room three(sceneText(0, 3334));  // 0, 3334, 6668: one of each kind
   // Record: step, schedule and the shaft; then per system status, q, v, work, generation and error,
-  // and the shaft of its own where it is not on that one.
+  // and its own shaft where it has one.
   EXPECT_EQ(three.record, 8.0 + (8.0) + (8.0 + 6.0) + (8.0 + 6.0));
   EXPECT_EQ(all.record, 8.0 + 8.0 * kMany + 6.0 * (kMany - 3334));
   EXPECT_EQ(all.to_step, 0.0);

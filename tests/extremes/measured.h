@@ -1,6 +1,6 @@
-// Runs at the extremes: how long they are, and what they found. They are shortened wherever every
-// test is run; with WHIRL_TWIN_EXTREMES=full in the environment (scripts/extremes sets it) they
-// have their whole length, up to a billion steps.
+// Runs at the extremes: their length, and their printed results. By default they are shortened;
+// with WHIRL_TWIN_EXTREMES=full in the environment (scripts/extremes sets it) they have their full
+// length, up to a billion steps.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ inline std::int64_t runOf(std::int64_t shortened, std::int64_t full) {
   return fullLength() ? full : shortened;
 }
 
-/// A value that must lie within its bound (NaN does not), and is worth telling.
+/// A value that must lie within its bound (NaN does not); it is printed.
 inline void expectWithin(double bound, double value, const std::string& what) {
   fmt::print("[ MEASURED ] {}: {:.2e}, at most {:.2e}\n", what, value, bound);
   EXPECT_LE(value, bound) << what;
@@ -49,10 +49,10 @@ inline int orderOf(const std::string& integrator) {
                                                                                 : 6;
 }
 
-/// At most this part of a frequency p is a method's own frequency off, z = p h well below 1: z^2/24
+/// Maximum relative error of a method's numerical frequency, z = p h well below 1: z^2/24
 /// (semi-implicit Euler, Verlet), z^2/12 (implicit midpoint), z^4/120 (Runge-Kutta 4), z^4/720
 /// (Gauss-Legendre 4), z^6/100800 (Gauss-Legendre 6), 863 z^6/24192 (Stoermer 6: half of the first
-/// term that its sum leaves out), less for those of a higher order.
+/// term that its sum omits), less for those of a higher order.
 inline double detuning(const std::string& integrator, double z) {
   const int order = orderOf(integrator);
   return order <= 2                   ? z * z / 12.0

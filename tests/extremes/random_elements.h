@@ -1,4 +1,4 @@
-// Rotors with what is not linear at places of their shaft, and on motors: random ones.
+// Random rotors with nonlinear elements at stations of their shaft, and on motors.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 
 namespace whirl_twin {
 
-/// Films that carry the shaft, at its ends or at one of them; springs where there is none.
+/// Oil films that carry the shaft, at its ends or at one of them; springs elsewhere.
 inline std::string randomBearings(Dice& dice, std::size_t last) {
   std::string springs;
   std::string films;
@@ -36,7 +36,7 @@ inline std::string randomBearings(Dice& dice, std::size_t last) {
          (films.empty() ? "" : "journal_bearings: [" + films + "], ");
 }
 
-/// One of them at least.
+/// At least one of them.
 inline std::string randomElements(Dice& dice, std::size_t last) {
   std::string all;
   const std::size_t node = 1 + dice.below(last - 1);

@@ -1,6 +1,6 @@
-// Routh's test on random polynomials whose roots are known: a hundred thousand in full length, a
-// thousand otherwise. The roots are drawn, and with them everything that can be asked; coefficients
-// follow, exactly, from whole numbers.
+// Routh's test on random polynomials with known roots: a hundred thousand in full length, a
+// thousand otherwise. The roots are drawn, which determines all expected results; coefficients
+// follow exactly, from whole numbers.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ constexpr int kHighest = 16;         // degree
 constexpr double kBudget = 2.0e8;    // products, as the monitor's verdict has them
 constexpr double kUncertain = 0.02;  // part of all of them
 
-/// What is known of a polynomial before it is written down.
+/// Known properties of a polynomial by construction.
 struct Known {
   Polynomial coefficients{1};
   int right = 0, imaginary = 0, left = 0;
@@ -37,7 +37,7 @@ class RandomRoots {
   explicit RandomRoots(unsigned seed) : random_(seed) {}
 
   /// Real roots n/d and pairs n/d +- i m/d, whole numbers up to 200: of one polynomial they lie on
-  /// the axis, a hundredth beside it, or far from it, and may be repeated.
+  /// the axis, a hundredth from it, or far from it, and may be repeated.
   Known next() {
     Known known;
     std::map<std::pair<int, int>, int> on_axis;

@@ -1,7 +1,7 @@
-// What `integrator: auto` promises of random systems, judged by a method of another kind
-// (independent_motion.h): none is promised falsely. Every model in each of its forms, at steps from
-// a tenth of a millisecond to a second; and the hardest: narrow dry friction, chaotic pendulums,
-// run-ups of linear rotors at coarse steps. The scenes come from one seed: the same on any machine.
+// Error bounds of `integrator: auto` for random systems, checked with an independent method
+// (independent_motion.h): none is violated. Every model in each of its forms, at steps from a tenth
+// of a millisecond to a second; and the hardest: narrow dry friction, chaotic pendulums, run-ups of
+// linear rotors at coarse steps. The scenes come from one seed: the same on any machine.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,14 +15,14 @@
 #include "measured.h"
 #include "models/model_registry.h"
 #include "random_elements.h"
-#include "scene/surroundings.h"
+#include "scene/model_context.h"
 #include "scene/system_setup.h"
 
 namespace whirl_twin {
 namespace random_promises_test {
 
 constexpr std::uint64_t kSeed = 12;    // or WHIRL_TWIN_SEED of the environment: other scenes
-constexpr double kRounding = 1.0e-12;  // below, errors are not told apart
+constexpr double kRounding = 1.0e-12;  // below, errors are indistinguishable
 constexpr double kSamples = 250.0;
 
 void giveAProfile(Scene& one, Dice& dice) {
@@ -53,7 +53,7 @@ Scene anyModel(Dice& dice) {
     one.step = std::llround(dice.anySize(1.0e5, 1.0e8));
     spec.horizon = dice.anySize(0.3, 10.0);
     try {
-      // How many coordinates a rotor is reduced to depends on its numbers.
+      // The number of modes of a reduced-order rotor depends on its parameters.
       const auto dof =
           static_cast<std::size_t>(setupOf(spec, surroundingsOf(one, spec)).made.dynamics->dof());
       spec.q.resize(dof, 0.5);
@@ -160,7 +160,7 @@ Scene randomScene(std::uint64_t number) {
   }
 }
 
-void judge(const Scene& one, JudgedPromises& judged) {
+void judge(const Scene& one, EvaluatedBounds& judged) {
   const SystemSpec& spec = one.systems.front();
   const StepChoice choice = chooseStep(one);
   const Sampling sampling(one, kSamples);
@@ -174,7 +174,7 @@ void judge(const Scene& one, JudgedPromises& judged) {
 
 TEST(RandomPromises, AreKept) {
   const auto scenes = static_cast<std::uint64_t>(runOf(100, 2000));
-  JudgedPromises judged(kRounding);
+  EvaluatedBounds judged(kRounding);
   for (std::uint64_t i = 0; i < scenes; ++i) {
     const Scene one = randomScene(i);
     SCOPED_TRACE(fmt::format("scene {}: {}, step {:g} s, tolerance {:g}, horizon {:g} s", i,
@@ -188,7 +188,7 @@ TEST(RandomPromises, AreKept) {
 // Of rotors with films, rubs and cubic springs at their nodes, and of such on motors.
 TEST(RandomPromises, OfShaftsWithElementsAreKept) {
   const auto scenes = static_cast<std::uint64_t>(runOf(4, 200));
-  JudgedPromises judged(kRounding);
+  EvaluatedBounds judged(kRounding);
   for (std::uint64_t i = 0; i < scenes; ++i) {
     Dice dice(seedOr(kSeed) + 2000003 * i);
     Scene one = shaftWithElements(dice);

@@ -1,8 +1,8 @@
 // Three hundred random rotors in full length, twenty otherwise, against dense generalized
-// eigenproblems in extended precision: of supports from 1e3 to 1e20 N/m, undamped and with damping
-// ratios of 0 to 5, and of plain films at eccentricities of 0.05 to 0.95; shafts of any density
-// down to 1e-6 kg/m^3 and without mass, 2 to 60 elements. None of their critical speeds is missed,
-// none invented, no verdict on stability is wrong.
+// eigenproblems in extended precision: with supports from 1e3 to 1e20 N/m, undamped and with
+// damping ratios of 0 to 5, and with plain bearings at eccentricities of 0.05 to 0.95; shafts of
+// any density down to 1e-6 kg/m^3 and without mass, 2 to 60 elements. No critical speed is missed,
+// none is spurious, no stability verdict is wrong.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -35,7 +35,7 @@ enum class Supports { kUndamped, kDamped, kFilms };
 struct DrawnRotor {
   FlexibleShaft shaft;
   Supports supports = Supports::kUndamped;
-  double speed = 0.0;  ///< [rad/s], that its stability is judged at
+  double speed = 0.0;  ///< [rad/s], of the stability evaluation
 };
 
 DrawnRotor drawnRotor(unsigned seed) {
@@ -208,16 +208,16 @@ long double turnOf(const Phase& phase, const Root& root) {
   return sum;
 }
 
-/// Of speeds, and of decay rates over the speed, up to a damping ratio of 0.7: what is damped more
-/// hardly goes round once, and is no whirl.
+/// Of speeds, and of decay rates over the speed, up to a damping ratio of 0.7: a mode with more
+/// damping hardly completes a revolution, and is no whirl.
 struct Cells {
   std::vector<double> speeds;                                            ///< [rad/s]
   std::vector<double> decays{-25.0, -0.5, 0.25, 0.7 / std::sqrt(0.51)};  ///< [-]
 };
 
-/// For each cell of speeds, then of decays, how many modes fall behind the speed less those that
-/// outrun it: as often as the phase of det D(i w - d; w) turns along its border, since that is zero
-/// where an eigenvalue i w - d meets the speed.
+/// For each cell of speeds, then of decays, the number of modes whose frequency falls below the
+/// speed minus those that rise above it: the winding number of det D(i w - d; w) along the cell's
+/// border, since that is zero where an eigenvalue i w - d meets the speed.
 std::vector<int> slowedIn(const LinearRotor& rotor, const Cells& cells) {
   const auto root = [](long double speed, long double x) -> LongComplex {
     return speed * LongComplex(-std::sinh(x), 1.0L);
@@ -275,7 +275,7 @@ std::complex<double> newtonStep(const Linearization& l, std::complex<double> s) 
   return {static_cast<double>(step.real()), static_cast<double>(step.imag())};
 }
 
-/// By how much of s the equations are off from having the root s.
+/// Residual of the equations for a root s, relative to s.
 double offRoot(const Linearization& l, std::complex<double> s) {
   return std::abs(newtonStep(l, s)) / std::abs(s);
 }
@@ -320,8 +320,8 @@ void compareUndamped(const LinearRotor& rotor, const CampbellDiagram& diagram, u
 void compareDamped(const LinearRotor& rotor, const CampbellDiagram& diagram, unsigned seed,
                    Tally& tally) {
   Cells cells;
-  // At standstill itself what is overdamped has the speed of the shaft, none: from a thousandth of
-  // the first step on.
+  // At standstill every overdamped mode has the speed of the shaft, zero: start at a thousandth of
+  // the first step.
   const double lowest = std::max(diagram.speeds.front(), 1.0e-3 * diagram.speeds[1]);
   const int count = fullLength() ? 8 : 4;
   for (int k = 0; k <= count; ++k) {

@@ -1,6 +1,5 @@
-// A shaft sent somewhere else in the middle of a move, as often as one likes: within its limits to
-// the last bits, as fast as it can be, and inside a band only while it crosses it at its largest
-// acceleration.
+// A shaft with new target speeds in the middle of a move, any number of times: within its limits to
+// rounding, time-optimal, and inside a band only while it crosses it at its largest acceleration.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,8 +24,8 @@ double anySize(Random& random, double low, double high) {
   return std::exp(uniform(random, std::log(low), std::log(high)));
 }
 
-/// [s], of the fastest change, in numbers of 64 bits: with the acceleration free at its start, it
-/// is jerked to a peak, kept there, and jerked to nothing.
+/// [s], of the fastest change, in extended precision: with the given initial acceleration, jerk to
+/// a peak, constant acceleration, jerk to zero.
 long double fastest(const SpeedSegment& now, const SpeedMove& move) {
   const long double jerk = move.max_jerk;
   const long double limit = move.max_acceleration;
@@ -85,7 +84,7 @@ TEST(ReplannedSpeeds, KeepTheirLimitsAndAreTheFastest) {
   expectWithin(1.0e-12, slower, "duration beside the closed form");
 }
 
-/// Bands of any number and width, none nearer to rest than a run-up.
+/// Bands of any number and width, none nearer to standstill than a run-up.
 ExclusionBands anyBands(Random& random, double run_up) {
   std::vector<SpeedBand> bands(1 + random() % 4);
   for (SpeedBand& band : bands) {
@@ -95,7 +94,7 @@ ExclusionBands anyBands(Random& random, double run_up) {
   return ExclusionBands(bands);
 }
 
-// Commands at any time; the drive is looked at over all of its pieces.
+// Commands at any time; the drive is sampled over all of its pieces.
 TEST(ReplannedSpeeds, AreInABandOnlyWhileTheyCrossItAtTheLargestAcceleration) {
   constexpr int kCommands = 10;
   constexpr int kLooks = 150;  // over a move

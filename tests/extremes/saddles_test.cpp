@@ -1,5 +1,5 @@
-// Balanced on a saddle: exactly there a system stays, whatever the method; beside it, it falls at
-// the rate of the linear motion.
+// Balanced on a saddle: exactly there a system stays, with any method; next to it, it falls at the
+// rate of the linearized motion.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -77,9 +77,9 @@ TEST_P(OnASaddle, ANudgeGrowsAtItsRate) {
     const double exact = kNudge * std::cosh(rate * system.time());  // 4e-6 in the end
     error = std::fmax(error, std::fabs(system.q(0) / exact - 1.0));
   }
-  // What a method's frequency is off by, its rate is too, over rate t = 16 (and a little);
-  // semi-implicit Euler divides the nudge between growth and decay with an error of rate h / 2. The
-  // equation's own cubic term: (4e-6)^2.
+  // The relative frequency error of a method is that of its rate, over rate t = 16 (and a little);
+  // semi-implicit Euler divides the initial deviation between growth and decay with an error of
+  // rate h / 2. The equation's own cubic term: (4e-6)^2.
   const double z = rate * 1e-3;
   const double bound =
       17.0 * detuning(GetParam().method, z) + (orderOf(GetParam().method) == 1 ? z : 0.0) + 2e-11;
@@ -92,8 +92,8 @@ INSTANTIATE_TEST_SUITE_P(Balanced, OnASaddle, testing::ValuesIn(everyCase()), []
   return test.param.saddle.name + ("_" + test.param.method);
 });
 
-// Above the threshold of its rotating damping a balanced rotor's centre repels: w > p (1 + c/c_i).
-// It stays there all the same.
+// Above the threshold of its rotating damping a balanced rotor's centre is unstable: w > p (1 +
+// c/c_i). It stays there all the same.
 TEST(ABalancedRotorAboveItsThreshold, StaysInTheCentreItIsRepelledFrom) {
   for (const std::string& method : integratorsOf("jeffcott_rotor")) {
     RunningSystem::Setup s;

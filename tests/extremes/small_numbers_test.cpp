@@ -1,5 +1,5 @@
-// Whirls that end in nothing: radii down to the smallest numbers there are, and through the centre,
-// where a whirl has no angle.
+// Whirls that decay to zero: radii down to the smallest representable numbers, and through the
+// centre, where a whirl has no angle.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,16 +32,16 @@ RunningSystem::Setup ringingDown(double radius) {
 
 class EveryMethodWithSmallNumbers : public testing::TestWithParam<std::string> {};
 
-// From 1e-295 m into the denormals, 29 decades in 6.7 s. There a number has no relative rounding:
-// each step may err by a few of the smallest numbers in q, and of p times them by way of q'. In
-// sums an increment of the increment, (p h)^2 q, is lost where it is less than half the smallest
-// number, and the motion stands still.
+// From 1e-295 m into the denormals, 29 decades in 6.7 s. There the rounding error is absolute: each
+// step may err by a few of the smallest numbers in q, and of p times them by way of q'. In sums an
+// increment of the increment, (p h)^2 q, is lost where it is less than half the smallest number,
+// and the motion stops.
 TEST_P(EveryMethodWithSmallNumbers, RingsDownIntoDenormalsAndEndsThere) {
   constexpr double kStart = 1e-295;
   RunningSystem rotor(ringingDown(kStart), GetParam(), kMillisecond / 5);
   const ClosedFormWhirl exact(2.0L * kZeta * kP, kP * kP, 0.0L, 0.0L, Complex(kStart, 0.0L),
                               Complex(0.0L, static_cast<long double>(kStart) * kP));
-  // p h = 0.02, over p t = 670: what the method's own damping and frequency make of it. Errors of
+  // p h = 0.02, over p t = 670: effect of the method's numerical damping and frequency. Errors of
   // the radius itself are relative, so they shrink with it.
   const double z = kP * 2e-4;
   const double truncation =
@@ -58,7 +58,7 @@ TEST_P(EveryMethodWithSmallNumbers, RingsDownIntoDenormalsAndEndsThere) {
     denormal = denormal || std::fpclassify(rotor.q(0)) == FP_SUBNORMAL;
   }
   EXPECT_TRUE(denormal) << "it went through them";
-  // What is left is stuck within a few roundings, or is nothing. It does not come back.
+  // The residual is within a few roundings of zero, or zero. It does not grow again.
   ASSERT_EQ(rotor.run(20000), StepStatus::kOk);
   expectWithin(lost, std::hypot(rotor.q(0), rotor.q(1)) / kSmallest,
                "left of a ring-down by " + GetParam() + ", in smallest numbers");

@@ -1,9 +1,9 @@
-// Where each method's steps begin to grow a motion that decays, or does neither: predicted from the
-// system's spectrum and the method's stability function, found in runs below, at and above it. On
-// the imaginary axis (undamped whirl), beside it (damped, rotating damping), on the real axis
-// (overdamped), with gyroscopic terms, and for many degrees of freedom. Of methods with a past
-// (which begin with steps of dormand_prince_8, so that single steps tell nothing of them) the
-// prediction is the largest root of their recurrence.
+// Stability limit of the step size of each method, where steps begin to amplify a motion that
+// decays or is neutral: predicted from the system's spectrum and the method's stability function,
+// and found in runs below, at and above it. On the imaginary axis (undamped whirl), beside it
+// (damped, rotating damping), on the real axis (overdamped), with gyroscopic terms, and for many
+// degrees of freedom. For multistep methods (started with steps of dormand_prince_8, so that single
+// steps give no information on them) the prediction is the largest root of their recurrence.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,8 +19,8 @@ namespace whirl_twin {
 namespace stability_limits_test {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
-constexpr double kLargest = 100.0;     // of h |lambda| looked at
-constexpr std::int64_t kFirst = 4000;  // steps until the first part of a motion is over
+constexpr double kLargest = 100.0;     // maximum h |lambda| tested
+constexpr std::int64_t kFirst = 4000;  // steps until the transient is over
 constexpr double kGrown = 1.2;         // in as many again: it grows
 
 RunningSystem::Setup jeffcott(double zeta, double zeta_internal = 0.0, double speed_ratio = 0.0) {
@@ -116,9 +116,8 @@ class StabilityLimit : public testing::TestWithParam<Case> {
                                     Eigen::VectorXd::Zero(start_.dynamics().dof()), setup_.speed)),
         fastest_(motion_.spectrum().cwiseAbs().maxCoeff()) {}
 
-  /// Of a motion whose first part is over, how much it grows in as many steps again: by the largest
-  /// of (q, v / |lambda|max) within kWindow steps. 0 once nothing is left, infinity once not
-  /// finite.
+  /// After the transient, the growth factor over as many steps again: of the largest of (q, v /
+  /// |lambda|max) within kWindow steps. 0 after decay to zero, infinity once not finite.
   double grown(double h_lambda) const {
     RunningSystem system(setup_, GetParam().method, step(h_lambda));
     for (std::int64_t i = 0; i < kFirst; i += 100) {
@@ -141,7 +140,7 @@ class StabilityLimit : public testing::TestWithParam<Case> {
     }
     return largest;
   }
-  /// Whole nanoseconds: to 1e-3 of the smallest step looked at.
+  /// Whole nanoseconds: to 1e-3 of the smallest step tested.
   std::int64_t step(double h_lambda) const {
     return static_cast<std::int64_t>(std::round(h_lambda / fastest_ * 1e9));
   }
@@ -179,7 +178,7 @@ class StabilityLimit : public testing::TestWithParam<Case> {
     }
     return map;
   }
-  /// The smallest h |lambda|max from which steps grow, as foretold; infinity: none up to kLargest.
+  /// The smallest h |lambda|max from which steps grow, as predicted; infinity: none up to kLargest.
   double limit() const {
     // Where two eigenvalues meet, on the very limit, they are known to 1e-8. A recurrence without
     // damping does not begin to grow at a limit, but as a high power of the step.
@@ -212,7 +211,7 @@ TEST_P(StabilityLimit, IsWhereTheStabilityFunctionPutsIt) {
     for (const double x : {0.1, 1.0, 3.0, 10.0, 30.0, kLargest}) {
       largest = std::fmax(largest, grown(x));
     }
-    // What decays does so; what does neither stays on its orbit, seen at steps of it.
+    // Decaying motions decay; neutral ones stay on their orbit, sampled once per step.
     expectWithin(1.05, largest,
                  fmt::format("no limit up to h |lambda| = 100, {} by {}: growth", GetParam().system,
                              GetParam().method));

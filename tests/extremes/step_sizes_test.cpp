@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Steps, EveryMethodAtAStepSize,
                          testing::ValuesIn(integratorsOf("jeffcott_rotor")),
                          [](const auto& test) { return test.param; });
 
-// What the exact step does with a rotor of 1000 rad/s in a step of ten seconds, 1600 turns.
+// The exact step of a rotor of 1000 rad/s over ten seconds, 1600 turns.
 TEST(AStepOfTenSeconds, IsExactForAFastRotor) {
   const Rotor rotor{1000.0, 1e-5, 1500.0, 1e-4};
   RunningSystem system(rotor.setup(), "exponential", 10 * kSecond);
@@ -90,7 +90,7 @@ TEST(AStepOfTenSeconds, IsExactForAFastRotor) {
     error = std::fmax(
         error, static_cast<double>(std::abs(Complex(system.q(0), system.q(1)) - exact) / 1e-3));
   }
-  // p t = 1e6, rounded by 1e-16 at the least; ten squarings and more in the step's exponential.
+  // p t = 1e6, rounded by at least 1e-16; ten squarings and more in the step's exponential.
   expectWithin(1e-9, error, "p = 1000 rad/s in steps of 10 s, exact step, error over radius");
 }
 
@@ -115,8 +115,8 @@ std::vector<double> afterTenMinutes(const std::string& step, int steps) {
   return {q[0], q[1], q[2], q[3]};
 }
 
-// Steps of ten seconds see nothing of the critical speed they run through, 50 rad/s: they leave the
-// rotor in a wild state, which dies. Then both stand on the same steady whirl.
+// Steps of ten seconds do not resolve the critical speed they run through, 50 rad/s: the rotor has
+// an arbitrary state afterwards, which decays. Then both converge to the same steady whirl.
 TEST(TenMinutes, OfStepsOfTenSecondsAndOfAMillisecondEndInTheSameWhirl) {
   const std::vector<double> coarse = afterTenMinutes("10", 60);
   const std::vector<double> fine = afterTenMinutes("0.001", 600000);

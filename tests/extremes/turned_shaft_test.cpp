@@ -1,5 +1,5 @@
-// A shaft that has turned by a billion radians: what it drives moves as it would at the same angle
-// of its first turn. (A double that held the angle would resolve 1.2e-7 rad.)
+// A shaft that has turned by a billion radians: the rotor moves as at the same angle of the first
+// turn. (The angle in one double would have a resolution of 1.2e-7 rad.)
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +54,7 @@ TEST_P(AfterABillionRadians, WhirlAndPhaseAreThoseOfTheFirstTurn) {
     ASSERT_TRUE(a.phase_valid && b.phase_valid);
     whirl = std::fmax(whirl, std::hypot(a.x - b.x, a.y - b.y) / b.radius);
     phase = std::fmax(phase, std::fabs(std::remainder(a.phase - b.phase, 2.0 * M_PI)));
-    // The total is what a double can say of it.
+    // The total has the resolution of a double.
     EXPECT_NEAR(a.shaft_angle - b.shaft_angle, kBillion - kRemainder, 2.4e-7);
   }
   expectWithin(1e-12, whirl, "whirl after 1e9 rad by " + GetParam() + ", relative difference");

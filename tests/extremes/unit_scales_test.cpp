@@ -1,6 +1,6 @@
-// Newton's equations do not know the units they are written in: a motion is the same motion with
-// masses of 1e-9 or 1e9 of a kilogram and lengths of a micrometre or a kilometre as units. Scales
-// that are powers of two change no digit of a double, so neither may they change one of the result.
+// Invariance of the motion under a change of units: with masses of 1e-9 or 1e9 of a kilogram and
+// lengths of a micrometre or a kilometre as units. Scales that are powers of two change no digit of
+// a double, so neither may they change one of the result.
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -58,7 +58,7 @@ struct Scales {
   }
 };
 
-/// The same motion, told in other units.
+/// The same motion in other units.
 Scene rescaled(Scene scene, const Scales& scales) {
   scene.gravity *= scales.length;
   SystemSpec& spec = scene.systems[0];
@@ -141,8 +141,8 @@ class InOtherUnits : public testing::TestWithParam<MovingVariant> {
     }
     return scene;
   }
-  /// The stages of an implicit method and the scaling of a matrix exponential go by the largest
-  /// number, whatever its unit: where m and rad stand side by side the last digit is left to that.
+  /// The stages of an implicit method and the scaling of a matrix exponential depend on the largest
+  /// number, whatever its unit: where m and rad are mixed, the last digit may differ.
   bool minglesUnits() const {
     const Scene alone = scene();
     std::set<std::string> units;

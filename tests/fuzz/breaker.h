@@ -1,4 +1,4 @@
-// How the tests of this folder damage bytes, and how often.
+// Corruption of bytes for the tests of this folder, and the number of runs.
 #pragma once
 
 #include <algorithm>
@@ -60,7 +60,7 @@ class Breaker {
         put(bytes, at, kNumbers[below(std::size(kNumbers))], 8);
     }
   }
-  /// Big-endian, as far as there is room.
+  /// Big-endian, as far as it fits.
   static void put(Bytes& bytes, std::size_t at, std::uint64_t value, std::size_t size) {
     for (std::size_t i = 0; i < size && at + i < bytes.size(); ++i) {
       bytes[at + i] = static_cast<std::uint8_t>(value >> 8 * (size - 1 - i));

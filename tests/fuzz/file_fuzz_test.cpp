@@ -1,7 +1,7 @@
-// Whatever is in a file that a program reads back or takes from others, it is read, left out or
-// refused in words. Checksums are made right again, so that what is behind them is tried.
-// 2,000 of each kind, a million with WHIRL_TWIN_EXTREMES=full, or as many as
-// WHIRL_TWIN_FUZZ_SECONDS have room for; how many and how fast are properties of the test.
+// Any content of a file that a program reads back or imports is read, skipped or rejected with an
+// error text. Checksums are recomputed, so that the code behind them is reached. 2,000 of each
+// kind, a million with WHIRL_TWIN_EXTREMES=full, or as many as fit into WHIRL_TWIN_FUZZ_SECONDS;
+// number and rate are properties of the test.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -12,7 +12,7 @@
 #include "../tools/twin_program.h"
 #include "breaker.h"
 #include "messages/checksum.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "monitoring/alarm_commands.h"
 #include "monitoring/alarm_history.h"
 #include "reports/rotor_drawing.h"
@@ -39,7 +39,7 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Tries it often; returns how many were not refused.
+/// Runs it many times; returns the number of accepted inputs.
 int tried(const std::function<void(Breaker&)>& one, unsigned seed) {
   const char* const limit = std::getenv("WHIRL_TWIN_FUZZ_SECONDS");
   const double most = limit == nullptr ? 1.0e9 : std::atof(limit);  // s
@@ -54,7 +54,7 @@ int tried(const std::function<void(Breaker&)>& one, unsigned seed) {
     try {
       one(breaker);
       ++taken;
-    } catch (const Refusal& why) {
+    } catch (const InputError& why) {
       EXPECT_NE(std::string(why.what()), "") << i;
     } catch (const RunFailure& why) {
       EXPECT_NE(std::string(why.what()), "") << i;
@@ -113,8 +113,8 @@ TEST(FileFuzz, CheckpointsWhoseChecksumIsRight) {
         Twin resumed(scene);
         resumed.buildEnsembles();
         Observer again(resumed);
-        putBack(read, resumed, "fuzz");
-        putBack(read, again, "fuzz");
+        restore(read, resumed, "fuzz");
+        restore(read, again, "fuzz");
         for (int i = 0; i < 3; ++i) {
           step(resumed, again);
         }

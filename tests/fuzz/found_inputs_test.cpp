@@ -1,5 +1,5 @@
-// Inputs that once made `twin` answer nonsense, or not at all: each is answered in finite numbers,
-// or refused in words that name what is wrong.
+// Regression inputs for which `twin` once gave wrong results or hung: each gives finite numbers, or
+// is rejected with an error text that names the error.
 #include <gtest/gtest.h>
 #include <malloc.h>
 #include <sys/stat.h>
@@ -224,7 +224,7 @@ TEST(FoundInputs, RootsThatTakeMoreThanADayAreRefusedByTheirNumber) {
   EXPECT_TRUE(contains(end.err, "50000 coefficients: takes about ")) << end.err;
 }
 
-/// What is no file with text or events in it, given to everything that reads one.
+/// Files without text or events, given to every reader.
 TEST(FoundInputs, FoldersDevicesAndPipesAreNoFiles) {
   const TemporaryDirectory folder;
   const std::string pipe = folder.file("pipe");

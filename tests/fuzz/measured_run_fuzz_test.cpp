@@ -1,5 +1,5 @@
-// Files of measurements that are broken in any way: each is read as a run that can be fitted to, or
-// refused in words. 3,000 of them; 100,000 with WHIRL_TWIN_EXTREMES=full.
+// Corrupt files of measurements: each is read as a run that can be used in a fit, or rejected with
+// an error text. 3,000 of them; 100,000 with WHIRL_TWIN_EXTREMES=full.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 #include "../tools/twin_program.h"
 #include "estimation/measured_run.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace measured_run_fuzz_test {
@@ -130,7 +130,7 @@ TEST(MeasuredRunFuzz, EveryBrokenFileIsARunOrRefusedInWords) {
     try {
       expectUsable(readMeasuredRun(path, "time", {"theta", "torque"}), text);
       ++read;
-    } catch (const Refusal& why) {
+    } catch (const InputError& why) {
       const std::string said = why.what();
       ASSERT_FALSE(said.empty()) << text;
       ASSERT_LT(said.size(), 4000u) << said;

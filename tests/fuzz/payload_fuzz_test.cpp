@@ -1,6 +1,6 @@
-// Whatever comes over the wire or stands in a log: each payload is a message or is rejected in
-// words, a log is read to its end, and a monitor that is told all of it goes on. 60,000 payloads,
-// 3,000 of them told to a monitor, and 1,000 logs; a million, 100,000 and 60,000 with
+// Any bytes received or in a log: each payload is a message or is rejected with an error text, a
+// log is read to its end, and a monitor that receives all of it continues. 60,000 payloads, 3,000
+// of them to a monitor, and 1,000 logs; a million, 100,000 and 60,000 with
 // WHIRL_TWIN_EXTREMES=full.
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -25,7 +25,7 @@
 namespace whirl_twin {
 namespace payload_fuzz_test {
 
-/// What is decoded is what was sent: it encodes and decodes to the same bits once more.
+/// The round trip is exact: the decoded message encodes and decodes to the same bits again.
 void expectBelievable(const Message& message) {
   std::visit(
       [](const auto& state) {
@@ -59,7 +59,7 @@ TEST(PayloadFuzz, DamagedPayloadsAreMessagesOrRejectedInWords) {
       }
     });
   }
-  // Damage that is always or never noticed would try only half of the code.
+  // Corruption that is always or never detected would test only half of the code.
   EXPECT_GT(taken, payloads / 20);
   EXPECT_LT(taken, payloads * 19 / 20);
 }

@@ -1,6 +1,6 @@
-// Whatever is in a scene file, it is either run or refused: no crash, no hang, exit status 0 or 2.
-// A thousand damaged copies of the shipped scenes go through what `twin check` does with a scene,
-// some of them through the program itself.
+// Any content of a scene file is either run or rejected: no crash, no hang, exit status 0 or 2. A
+// thousand corrupted copies of the shipped scenes go through the checks of `twin check`, some of
+// them through the program itself.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -23,7 +23,7 @@ constexpr int kEachProgram = 12;   // every 12th case goes through the program t
 constexpr unsigned kLongest = 60;  // s, for one case: a hundred times what the slowest takes
 constexpr int kSteps = 3;
 
-// A crash or a hang ends the test; this says where, so that the case can be found again.
+// A crash or a hang ends the test; this identifies the case, so that it can be reproduced.
 char present_case[64] = "before the first case\n";
 
 void sayCase(int signal) {
@@ -50,7 +50,7 @@ std::vector<std::string> shippedScenes() {
   return texts;
 }
 
-/// Reads the scene and takes a few steps of it; the errors it was refused with.
+/// Reads the scene and takes a few steps of it; returns its errors.
 Lines errorsOf(const std::string& path) {
   try {
     const Scene scene = readSceneFile(path);
@@ -79,8 +79,8 @@ void expectClear(const Lines& errors, const std::string& path) {
   }
 }
 
-/// The program's word on the scene is the library's; a sound scene can be analysed, or the analysis
-/// says why not.
+/// The program's result for the scene is the library's; a valid scene can be analysed, or the
+/// analysis reports why not.
 void expectSameFromProgram(const std::string& path, const Lines& errors) {
   const Ending check = twin({"check", path});
   EXPECT_EQ(check.status, errors.empty() ? 0 : 2);
@@ -114,7 +114,7 @@ TEST(SceneFuzz, DamagedScenesAreRunOrRefused) {
       expectSameFromProgram(path, errors);
     }
   }
-  // Damage that is always or never noticed would try only half of the code.
+  // Corruption that is always or never detected would test only half of the code.
   EXPECT_GT(refused, kCases / 4);
   EXPECT_LT(refused, kCases * 95 / 100);
   RecordProperty("refused", refused);

@@ -36,7 +36,8 @@ std::vector<Piece> lines(const std::string& text) {
   return all;
 }
 
-/// All runs of characters of which `belongs` is true and the first of which `starts` is.
+/// All maximal runs of characters that satisfy `belongs`, with a first character that satisfies
+/// `starts`.
 template <class Starts, class Belongs>
 std::vector<Piece> runs(const std::string& text, Starts starts, Belongs belongs) {
   std::vector<Piece> all;
@@ -157,7 +158,7 @@ void insertNull(std::string& text, Random& random) {
   text.insert(below(random, text.size() + 1), 1, '\0');
 }
 
-/// Anchors and aliases, of which some point at what they stand in.
+/// Anchors and aliases, some of them recursive.
 void alias(std::string& text, Random& random) {
   static constexpr const char* kAnchors[] = {": &a",       ": *a", ": &a {a: *a}", ": &a [*a, *a]",
                                              ": !!binary", ": <<", ": |",          ": >-"};

@@ -1,4 +1,4 @@
-// Damage to scene files, the kinds that editors, scripts, disks and curious people do.
+// Mutations of scene files: typical errors of editors, scripts, disks and users.
 #pragma once
 
 #include <cstdint>

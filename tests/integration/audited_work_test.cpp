@@ -1,5 +1,5 @@
-// The work a method sums up is the integral of dh/dt: the exact step's, in closed form, is that of
-// Gauss-Legendre with far smaller steps, and both are what the Jacobi integral gained.
+// The audited work of a method is the integral of dh/dt: the exact step's, in closed form, is that
+// of Gauss-Legendre with far smaller steps, and both equal the gain of the Jacobi integral.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,7 +50,7 @@ TEST(AuditedWork, OfTheExactStepIsThatOfManySmallOnes) {
 }
 
 TEST(AuditedWork, IsTheHeatOfAFreeDampedSwing) {
-  // A hanging pendulum that comes to rest has turned all its energy into heat.
+  // A hanging pendulum that comes to rest has dissipated all its energy.
   RunningSystem::Setup s;
   s.model = "spinning_pendulum";
   s.parameters = {{"mass", 1.0}, {"length", 1.0}, {"damping", 2.0}};
@@ -61,7 +61,7 @@ TEST(AuditedWork, IsTheHeatOfAFreeDampedSwing) {
     RunningSystem pendulum(s, method, 1000000);
     const double start = pendulum.energies().jacobi;
     ASSERT_EQ(pendulum.run(60000), StepStatus::kOk);
-    // e^-60 is left of the swing's energy.
+    // e^-60 of the swing's energy remains.
     EXPECT_NEAR(pendulum.work(), -start, tolerance * start) << method;
   }
 }

@@ -166,8 +166,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 class OrderOfALongPast : public testing::TestWithParam<Case> {};
 
-// The start is by steps of order eight, a fixed number: what it is off by falls with the ninth
-// power of the step, what follows with the eleventh.
+// The start is by a fixed number of steps of order eight: its error falls with the ninth power of
+// the step, the following error with the eleventh.
 TEST_P(OrderOfALongPast, IsBetweenThatOfItsStartAndItsOwn) {
   const Case& c = GetParam();
   const std::vector<double> errors = errorsOf(c, {c.coarsest, c.coarsest / 2});

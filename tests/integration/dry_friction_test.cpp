@@ -1,6 +1,6 @@
-// Dry friction that holds: closed forms of oscillators with Coulomb friction, piece by piece; a
-// plank that a roller carries along; Den Hartog's forced motion; arms that stay; and what no
-// friction may do, give energy.
+// Dry friction with sticking: closed forms of oscillators with Coulomb friction, piece by piece; a
+// plank carried along by a roller; Den Hartog's forced motion; arms that stick; and that friction
+// never adds energy.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Given oscillator(double friction, const InputSignal& force, double x, double dam
 }
 
 /// x'' + w^2 x = P cos(W t) - F sign(x') with stops, of mass 1, in phases whose closed forms are
-/// joined where the mass comes to rest or gets loose; instants by bisection.
+/// joined where the mass sticks or starts to slide; instants by bisection.
 class ClosedForm {
  public:
   ClosedForm(Real w, Real friction, Real force, Real forced, Real x)
@@ -66,7 +66,7 @@ class ClosedForm {
     from_ = seen_ = t;
     const Real pushed = push(t);
     sign_ = std::fabs(pushed) <= friction_ ? 0 : pushed > 0.0L ? 1 : -1;
-    // The part that is periodic and the mean, then the free motion of what is left.
+    // The periodic part and the mean, then the residual free motion.
     steady_ = force_ / (w_ * w_ - forced_ * forced_);
     mean_ = -sign_ * friction_ / (w_ * w_);
     cosine_ = x_ - mean_ - steady_ * std::cos(forced_ * t);
@@ -185,9 +185,9 @@ TEST(DryFriction, AnArmThatItHoldsStaysForADay) {
 }
 
 TEST(DryFriction, ARollerCarriesThePlankUntilItIsInTheMiddle) {
-  // From x0 at rest it slides, x0 cos(p t), until it is as fast as the roller it moves to; that
-  // holds it until the other roller's friction exceeds what it has, in the middle. From there on it
-  // slides with the amplitude vs / p and touches the speed of a roller in every pass.
+  // From x0 at rest it slides, x0 cos(p t), until its velocity equals that of the roller ahead; it
+  // sticks to that until the other roller's friction exceeds that of the first, in the middle. From
+  // there on it slides with the amplitude vs / p and reaches the speed of a roller in every pass.
   const double mu = 0.3;
   const double a = 0.0762;
   const double h = 0.0127;

@@ -1,5 +1,5 @@
-// Every input of every model in each of its forms, with every method: what a held input does is the
-// work that the audit says, whatever the instants at which it changes, and no step allocates.
+// Every input of every model in each of its forms, with every method: the work of a zero-order-held
+// input agrees with the audit, whatever the instants of its changes, and no step allocates.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ class EveryInput : public testing::TestWithParam<Pair> {
     return model.setUp(parameters, GetParam().variant.settings, GetParam().variant.around(9.81));
   }
 
-  /// Random values, changing at instants that no step knows of.
+  /// Random values, changing at instants independent of the steps.
   InputSignal randomTable(bool hold) {
     std::vector<std::int64_t> instants{0};
     std::vector<double> values;
@@ -66,7 +66,8 @@ class EveryInput : public testing::TestWithParam<Pair> {
     return InputSignal::table(instants, values, hold);
   }
 
-  /// How far the gain of the Jacobi integral is off the audited work after 32 ms, over the energy.
+  /// Difference between the gain of the Jacobi integral and the audited work after 32 ms, relative
+  /// to the energy.
   double residual(const ModelSetup& setup, const Inputs& signals, std::int64_t step) {
     Inputs inputs = signals;
     Drive drive(3.0, 0.0);
@@ -111,9 +112,9 @@ TEST_P(EveryInput, OfHeldValuesClosesTheAudit) {
   const std::int64_t step = 1'000'000;
   const double coarse = residual(setup, inputs, step);
   if (coarse > 1e-9) {
-    // The truncation of a method of low order: it falls as that does, from parts that the
-    // instants make shorter than a step anyway.
-    // A spin that the exact step of its rotor goes with sees a torque's jump at three nodes.
+    // Truncation error of a low-order method: it falls with the order, from sub-steps that the
+    // instants make shorter than a step anyway. A spin in the exact step of its rotor samples a
+    // torque's jump at three nodes.
     const bool own_spin = setup.dynamics->isRotor() && !setup.dynamics->hasShaft() &&
                           GetParam().method == "exponential";
     const double order = own_spin ? 2.0 : stepMethod(GetParam().method).order;

@@ -142,8 +142,8 @@ TEST(ExactStep, DoesNotDependOnTheStep) {
   EXPECT_NEAR(one.work(), many.work(), 1e-12 * many.energies().kinetic);
 }
 
-// A load that alternates by itself is not frozen: m_e th'' + c_e th' + k_e th = q cos(W t) with the
-// closed form of the steady motion, and the free motion that starts it from rest.
+// An alternating load without a shaft is not frozen: m_e th'' + c_e th' + k_e th = q cos(W t) with
+// the closed form of the steady motion, and the free motion that starts it from rest.
 TEST(ExactStep, FollowsALoadThatAlternatesWithoutAShaft) {
   const double mass = 12.0, l = 2.0, k = 4000.0, c = 6.0, f = 100.0, w = 15.0;
   RunningSystem::Setup s;

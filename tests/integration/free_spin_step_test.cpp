@@ -1,4 +1,4 @@
-// The angle of a shaft that a motor turns, where a step takes it beyond what numbers hold.
+// The angle of a shaft on a motor, where a step exceeds the range of numbers.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,5 +1,5 @@
 // Gauss-Legendre collocation: bounded energy error over long times, stiff systems by Newton's
-// method, and a refusal where neither iteration finds the stages.
+// method, and an error where neither iteration converges.
 #include <gtest/gtest.h>
 
 #include <cmath>

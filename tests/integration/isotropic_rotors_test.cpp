@@ -1,4 +1,4 @@
-// Isotropic rotors side by side against the same rotors one by one, and against closed forms.
+// Batched isotropic rotors against the same rotors one by one, and against closed forms.
 #include "integration/isotropic_rotors.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,8 @@ namespace isotropic_rotors_test {
 using Complex = std::complex<double>;
 constexpr std::int64_t kMillisecond = 1'000'000;
 
-// A run-up with corners inside steps: at 0.0333 s and so on, and with an acceleration that jumps.
+// A run-up with breakpoints inside steps: at 0.0333 s and so on, and with an acceleration that
+// jumps.
 Drive runUp() {
   return Drive(0.0, 0.3,
                {SpeedMove{90.0, 300.0, 9000.3, 0.0505}, SpeedMove{40.0, 200.0, 0.0, 0.2}});
@@ -45,7 +46,7 @@ std::vector<IsotropicRotor> someRotors(std::size_t count) {
   return rotors;
 }
 
-/// The same rotor as a system of its own, of mass 1, without substeps.
+/// The same rotor as a separate system, of mass 1, without substeps.
 std::unique_ptr<Stepper> single(const IsotropicRotor& r, const Drive& drive, double step) {
   const ModelInfo& model = *findModel("jeffcott_rotor");
   ParameterValues values;
@@ -61,7 +62,7 @@ std::unique_ptr<Stepper> single(const IsotropicRotor& r, const Drive& drive, dou
   values["bow_angle"] = std::arg(r.bow_force);
   Settings settings;
   settings.choices["gravity_on_shaft"] = "true";
-  auto system = model.setUp(values, settings, Surroundings(-r.load.imag()))
+  auto system = model.setUp(values, settings, ModelContext(-r.load.imag()))
                     .system("exponential", drive, step, 1);
   const double q[] = {r.start.real(), r.start.imag()};
   const double v[] = {r.start_rate.real(), r.start_rate.imag()};
@@ -69,8 +70,8 @@ std::unique_ptr<Stepper> single(const IsotropicRotor& r, const Drive& drive, dou
   return system;
 }
 
-/// Steps rotors of 1 ms on a drive together and one by one; the largest difference of a position,
-/// in parts of the largest so far of that rotor. The peaks come out the same.
+/// Steps rotors of 1 ms on a drive batched and one by one; the largest difference of a position,
+/// relative to the largest so far of that rotor. The peaks are equal.
 double worstDifference(const std::vector<IsotropicRotor>& rotors, Drive& drive,
                        IsotropicRotors& together, int steps) {
   std::vector<std::unique_ptr<Stepper>> apart;
@@ -97,8 +98,8 @@ double worstDifference(const std::vector<IsotropicRotor>& rotors, Drive& drive,
   return worst;
 }
 
-// 1e-11 of the motion: the single step leaves about 1e-13 of the force at 1 ms, and here sums are
-// not compensated. A corner that were stepped across would show as 1e-6.
+// 1e-11 of the motion: the single step has an error of about 1e-13 of the force at 1 ms, and here
+// sums are not compensated. A step across a breakpoint would show as 1e-6.
 TEST(IsotropicRotors, AreWhatTheyAreOneByOne) {
   const std::vector<IsotropicRotor> rotors = someRotors(21);  // not whole blocks
   Drive drive = runUp();
@@ -169,7 +170,8 @@ TEST(IsotropicRotors, GoBackToTheirStart) {
   EXPECT_DOUBLE_EQ(many.peak(3), std::abs(rotors[3].start));
 }
 
-// More steps than wait at once, of one and of several parts; a look in between is a look back.
+// More steps than are deferred at once, of one sub-step and of several; sampling in between forces
+// the deferred steps.
 TEST(IsotropicRotors, StepsTakenLaterAreTheSameToTheBit) {
   const std::vector<IsotropicRotor> rotors = someRotors(21);
   for (const double highest_speed : {90.0, 9000.0}) {
@@ -182,7 +184,7 @@ TEST(IsotropicRotors, StepsTakenLaterAreTheSameToTheBit) {
       later.stepLater(drive);
     }
     later.catchUp();
-    later.catchUp();  // nothing is left
+    later.catchUp();  // nothing remains
     for (std::size_t k = 0; k < rotors.size(); ++k) {
       EXPECT_EQ(later.position(k), at_once.position(k));
       EXPECT_EQ(later.rate(k), at_once.rate(k));

@@ -1,6 +1,6 @@
-// The exact steps of a rotor of two coordinates (lateral_rotor_stepper.h) against the step that
-// knows only matrices and a table over speed (rotor_step.h): run-ups at any step, random rotors,
-// corners of the profile inside a step, the audit, constant speed, and no allocation.
+// The exact steps of a rotor of two coordinates (lateral_rotor_stepper.h) against the general step
+// by matrices and a table over speed (rotor_step.h): run-ups at any step, random rotors,
+// breakpoints of the profile inside a step, the audit, constant speed, and no allocation.
 #include "integration/lateral_rotor.h"
 
 #include <gtest/gtest.h>
@@ -56,8 +56,8 @@ class ByMatrices {
 };
 
 struct Found {
-  double error = 0.0;     ///< of the position, in parts of the largest radius
-  double residual = 0.0;  ///< of the energy, in parts of the largest
+  double error = 0.0;     ///< of the position, relative to the largest radius
+  double residual = 0.0;  ///< of the energy, relative to the largest
 };
 
 /// From rest, at a step [ns] against steps of `finer` [ns].
@@ -139,7 +139,7 @@ TEST(LateralRotor, FollowsRandomRotorsThroughRandomProfiles) {
                           {});
     setup.settings.choices["gravity_on_shaft"] = i % 2 == 0 ? "true" : "false";
     setup.speed = 400.0 * share(random) - 200.0;
-    // Accelerations that jump, limited jerk, dwells: corners fall inside steps everywhere.
+    // Accelerations that jump, limited jerk, dwells: breakpoints inside steps everywhere.
     setup.profile = {{300.0 * share(random), 100.0 + 300.0 * share(random), sometimes(3.0e3),
                       0.3 * share(random)},
                      {-100.0 * share(random), 200.0, sometimes(1.0e4), 0.2}};
@@ -202,8 +202,8 @@ TEST(LateralRotor, FollowsANewSpeedWithoutBeingPreparedForIt) {
   EXPECT_NEAR(state[1], planned.q(1), 1e-16);
 }
 
-// A step that goes on takes the shaft's phase from the one before. Where the shaft has been put
-// elsewhere, or the rotor, it must not.
+// A step that continues reuses the shaft's phase of the previous one. After a change of the shaft
+// angle, or of the rotor's state, it must not.
 TEST(LateralRotor, SeesWhenTheShaftIsElsewhere) {
   const auto setup = jeffcott(
       {{"mass", 2.0}, {"stiffness", 2.0e4}, {"damping", 10.0}, {"eccentricity", 2.0e-4}}, {});
@@ -232,12 +232,12 @@ TEST(LateralRotor, SeesWhenTheShaftIsElsewhere) {
       ASSERT_TRUE(drive.setSpeed(i % 20 == 9 ? 95.0 : 90.0, 1e9, 0.0));  // in a step
     }
     const std::array<double, 5> before = stateOf(*stepper);
-    const auto anew = LateralRotorStepper::of(rotor, drive, 1e-3, 1);
-    anew->set(before.data(), before.data() + 2);
+    const auto restarted = LateralRotorStepper::of(rotor, drive, 1e-3, 1);
+    restarted->set(before.data(), before.data() + 2);
     ASSERT_EQ(stepper->step(0.0), StepStatus::kOk);
-    ASSERT_EQ(anew->step(0.0), StepStatus::kOk);
+    ASSERT_EQ(restarted->step(0.0), StepStatus::kOk);
     const std::array<double, 5> after = stateOf(*stepper);
-    const std::array<double, 5> expected = stateOf(*anew);
+    const std::array<double, 5> expected = stateOf(*restarted);
     for (std::size_t k = 0; k < 4; ++k) {
       EXPECT_NEAR(after[k], expected[k], k < 2 ? 1e-17 : 1e-15) << i;
     }
@@ -245,9 +245,9 @@ TEST(LateralRotor, SeesWhenTheShaftIsElsewhere) {
   }
 }
 
-// While the speed changes a step that goes on turns the phasors of the one before. It must be the
-// step of a rotor that was only just put there: at any number of nodes, and where the shaft, its
-// acceleration or the rotor was put elsewhere.
+// While the speed changes a step that continues rotates the phasors of the previous one. It must
+// equal the step of a newly initialized rotor: for any number of nodes, and after a change of the
+// shaft's angle, its acceleration or the rotor's state.
 TEST(LateralRotor, GoesOnInARunUpAsOneThatBeginsAnew) {
   const auto setup = jeffcott({{"mass", 2.0},
                                {"stiffness", 2.0e4},
@@ -278,16 +278,16 @@ TEST(LateralRotor, GoesOnInARunUpAsOneThatBeginsAnew) {
       }
       std::array<double, 5> before;
       stepper->write(before.data());
-      const auto anew = LateralRotorStepper::of(rotor, drive, h, 1);
-      anew->set(before.data(), before.data() + 2);
+      const auto restarted = LateralRotorStepper::of(rotor, drive, h, 1);
+      restarted->set(before.data(), before.data() + 2);
       ASSERT_EQ(stepper->step(0.0), StepStatus::kOk);
-      ASSERT_EQ(anew->step(0.0), StepStatus::kOk);
+      ASSERT_EQ(restarted->step(0.0), StepStatus::kOk);
       time += step;
       drive.begin(time);
       std::array<double, 5> after;
       std::array<double, 5> expected;
       stepper->write(after.data());
-      anew->write(expected.data());
+      restarted->write(expected.data());
       for (std::size_t k = 0; k < 4; ++k) {
         EXPECT_NEAR(after[k], expected[k], k < 2 ? 1e-16 : 1e-14) << i << " of " << step;
       }
@@ -295,8 +295,9 @@ TEST(LateralRotor, GoesOnInARunUpAsOneThatBeginsAnew) {
   }
 }
 
-// The phase is that of the shaft at any speed, however large a part of a turn a step takes: what
-// forces of e w^2 leave beside a mass centre that hardly moves shows every digit of it.
+// The phase is that of the shaft at any speed, however large the fraction of a turn in a step:
+// forces of e w^2 nearly cancel at the almost stationary mass centre, so that every digit of the
+// phase matters.
 TEST(LateralRotor, TurnsAboutItsMassCentreAtAnySpeedFarAboveTheCriticalOne) {
   double largest = 0.0;
   for (double speed = 5.0e4; speed < 2.0e5; speed *= 1.0123) {

@@ -1,5 +1,5 @@
-// Steps of a linear system given by its matrices: the methods of fixed size in another form, each
-// of its order, with a balanced energy, and without allocating.
+// Steps of a linear system given by its matrices: the fixed-step methods in another form, each of
+// its order, with a closed energy balance, and without allocating.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "allocation_guard.h"
-#include "integration/called_equation.h"
 #include "integration/dormand_prince_8.h"
+#include "integration/erased_ode.h"
 #include "integration/exponential.h"
 #include "integration/gauss_legendre.h"
 #include "integration/linear_methods.h"

@@ -1,4 +1,4 @@
-// e^X - I and the integral of a quadratic form, against matrices whose exponential is known.
+// e^X - I and the integral of a quadratic form, against matrices with known exponentials.
 #include "integration/matrix_exponential.h"
 
 #include <gtest/gtest.h>

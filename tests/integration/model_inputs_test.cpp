@@ -21,7 +21,7 @@ struct Oscillator {
   long double x = 0.0L, v = 0.0L;
 
   void advance(long double t, long double u, long double slope) {
-    // A particular solution a + b t, and the free motion from what it leaves.
+    // A particular solution a + b t, and the free motion from the remaining initial state.
     const long double b = slope / k;
     const long double a = (u - c * b) / k;
     const long double d = c / (2.0L * m);
@@ -51,7 +51,7 @@ double harmonicResponse(double m, double c, double k, double force, double frequ
   return static_cast<double>(now.real() + rest.x);
 }
 
-/// An oscillator as each engine knows it: with x' s input called `force`.
+/// An oscillator in the form of each engine: with x' s input called `force`.
 struct Engine {
   const char* name;
   const char* model;

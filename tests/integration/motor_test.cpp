@@ -1,6 +1,6 @@
-// A rotor whose spin is free: Sommerfeld's effect against the reference runs, what is conserved,
-// and the same physics as free_rotor has in its turning frame; and the same of a shaft of elements
-// (mechanics/spinning_rotor.h), against equations of other origin and steps of another method.
+// A rotor with free spin: Sommerfeld's effect against the reference runs, conserved quantities, and
+// agreement with free_rotor in its rotating frame; and the same for a shaft of elements
+// (mechanics/spinning_rotor.h), against independently derived equations with another method.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -122,7 +122,7 @@ TEST(Motor, MovesAsTheFreeRotorOfTheTurningFrame) {
   EXPECT_NEAR(a.v(2), b.v(2), 1e-9 * b.v(2));
 }
 
-// The spin is kept as turns and a remainder: 1e9 rad on, the whirl is the one of the first turn.
+// The spin is stored as turns and a remainder: after 1e9 rad the whirl is that of the first turn.
 TEST(Motor, LosesNoPhaseHoweverOftenItHasTurned) {
   RunningSystem::Setup near = sommerfeld(0.3, 150.0);
   RunningSystem::Setup far = near;
@@ -139,7 +139,7 @@ TEST(Motor, LosesNoPhaseHoweverOftenItHasTurned) {
   EXPECT_NEAR(b.q(1), a.q(1), 1e-12 * kEccentricity);
 }
 
-// rigid_disc_rotor, whose tilt nothing couples to its displacement, is a Jeffcott rotor.
+// rigid_disc_rotor with uncoupled tilt and displacement is a Jeffcott rotor.
 TEST(Motor, TurnsARigidDiscAsAJeffcottRotor) {
   RunningSystem::Setup jeffcott = sommerfeld(0.3);
   RunningSystem::Setup disc = jeffcott;
@@ -160,7 +160,7 @@ TEST(Motor, TurnsARigidDiscAsAJeffcottRotor) {
   EXPECT_NEAR(b.q(0), a.q(0), 1e-9 * 4.0e-3);
 }
 
-/// A flexible_rotor by what a scene says of it.
+/// A flexible_rotor from its scene parameters.
 RunningSystem::Setup flexible(const std::string& parameters, const Motor& motor,
                               double speed = 0.0) {
   const Scene scene = sceneOf(
@@ -236,7 +236,7 @@ TEST(SpinningRotor, HasTheEquationsThatTheEnergiesGive) {
                                                  {"skew_angle", 1.9}});
   Settings settings;
   settings.choices = {{"frame", "fixed"}, {"gravity_on_shaft", "true"}};
-  Surroundings around(9.81);
+  ModelContext around(9.81);
   const auto held = model.setUp(disc, settings, around).dynamics;
   SpinCoupling coupling;
   coupling.polar_inertia = 0.05 + 3.0 * 2.0e-3 * 2.0e-3;
@@ -326,7 +326,7 @@ TEST(SpinningRotor, MovesAsItsEquationsDoByAnotherMethod) {
 }
 
 TEST(SpinningRotor, WithARubMovesAsItsEquationsDoByAnotherMethod) {
-  // Wide in touch all the time: no instant of touching costs the order.
+  // In contact all the time: no instant of touching reduces the order.
   const std::string rubbing =
       "modes: 6, rubs: [{node: 2, clearance: 1.0e-6, stiffness: 2.0e+4, damping: 20.0, friction: "
       "0.2, radius: 0.05}], cubic_springs: [{node: 3, stiffness: 1.0e+10}]";
@@ -378,7 +378,7 @@ TEST(SpinningRotor, ClosesItsEnergyBalance) {
 TEST(SpinningRotor, IsCapturedBelowTheTorqueThatItsWhirlTakesAndPassesAbove) {
   const std::string shaft = laboratory("modes: 6, highest_speed: 300");
   const RunningSystem::Setup weak = flexible(shaft, Motor::falling(0.4, 400.0));
-  Surroundings around(9.81);
+  ModelContext around(9.81);
   const auto held =
       findModel("flexible_rotor")
           ->setUp(completed(*findModel("flexible_rotor"), weak.parameters), weak.settings, around)

@@ -91,8 +91,8 @@ TEST(Hysteresis, SagsATurningShaftSidewaysByItsLossFactor) {
 }
 
 TEST(Hysteresis, DoesNothingToASynchronousWhirl) {
-  // Below p, where the orbit is stable by itself. The material holds the shaft to its shape so hard
-  // that it creeps to the same orbit, as exp(-1.3 t).
+  // Below p, where the orbit is stable anyway. The material damping is so strong that the shaft
+  // creeps to the same orbit, as exp(-1.3 t).
   const ParameterValues plain{{"damping", 40.0}, {"eccentricity", 1.0e-4}};
   ParameterValues lossy = plain;
   lossy["loss_factor"] = 0.05;
@@ -148,7 +148,7 @@ RunningSystem::Setup thrown() {
 }
 
 TEST(Rub, ConservesTheEnergyOfAnElasticStator) {
-  // p_r h = 0.1, the step its header asks for.
+  // p_r h = 0.1, the step required in its header.
   RunningSystem system(thrown(), "gauss_legendre_6", 300000);
   const double energy = system.energies().jacobi;
   double farthest = 0.0;

@@ -1,6 +1,6 @@
 // Run-ups by the exact step of a linear rotor (rotor_step.h): peaks and states of the reference
-// rotors, far finer steps of another method, corners of the profile inside a step, the audit, and
-// no allocation.
+// rotors, far finer steps of another method, breakpoints of the profile inside a step, the audit,
+// and no allocation.
 #include "integration/rotor_step.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include "allocation_guard.h"
 #include "integration/linear_rotor_stepper.h"
 #include "integration/packed_matrix.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "models/linear_rotor_setup.h"
 #include "running_system.h"
 
@@ -32,7 +32,7 @@ Json reference(const std::string& id) {
       return entry;
     }
   }
-  throw Refusal("no reference rotor " + id);
+  throw InputError("no reference rotor " + id);
 }
 
 Json expected(const Json& entry, const std::string& name) {
@@ -223,7 +223,7 @@ TEST(RunUpPeak, FeelsTheTangentialForceOfTheUnbalance) {
   EXPECT_GT(speed, 0.0);
 }
 
-/// A rotor with every effect whose matrices follow the speed, on a drive with corners everywhere.
+/// A rotor with every effect with speed-dependent matrices, on a drive with breakpoints everywhere.
 RunningSystem::Setup everythingThatFollowsTheSpeed(double speed, std::vector<SpeedMove> profile) {
   RunningSystem::Setup setup;
   setup.model = "jeffcott_rotor";
@@ -250,7 +250,7 @@ double distance(const RunningSystem& a, const RunningSystem& b) {
 }
 
 TEST(RotorStep, AgreesWithFarFinerGaussLegendreSteps) {
-  // Accelerations that jump, limited jerk, a dwell: corners fall inside steps everywhere.
+  // Accelerations that jump, limited jerk, a dwell: breakpoints inside steps everywhere.
   const auto setup = everythingThatFollowsTheSpeed(
       30.0, {{171.3, 83.0, 0.0, 0.0377}, {260.0, 60.0, 900.0, 0.1}, {200.0, 150.0, 0.0, 0.2}});
   RunningSystem exact(setup, "exponential", 1'000'000);

@@ -70,8 +70,8 @@ double largestDistance(const std::vector<SpeedMove>& profile) {
   return largest / radius;
 }
 
-// The profiles turn between constant and changing speed inside a step: steps are split there, so
-// that a corner of the drive costs no accuracy.
+// The profiles change between constant and changing speed inside a step: steps are split there, so
+// that a breakpoint of the drive costs no accuracy.
 TEST(RunUp, WithDwellsIsTheFineGaussLegendreMotion) {
   EXPECT_LT(largestDistance({{90.0, 60.0, 300.0, 0.3}, {10.0, 100.0, 500.0, 0.2}}), 1e-12);
 }

@@ -1,5 +1,5 @@
-// One system on its shaft, stepped as the twin steps it: the drive begins each step, then the
-// system advances. Methods run as they were compiled into the library, with its flags.
+// One system on its shaft, stepped as in the twin: the drive begins each step, then the system
+// advances. Methods are those compiled into the library, with its flags.
 #pragma once
 
 #include <cstdint>
@@ -112,7 +112,7 @@ class RunningSystem {
  private:
   static ModelSetup setUp(const Setup& setup) {
     const ModelInfo& model = *findModel(setup.model);
-    Surroundings around(setup.gravity);
+    ModelContext around(setup.gravity);
     around.motor = setup.motor;
     return model.setUp(completed(model, setup.parameters), setup.settings, around);
   }

@@ -1,6 +1,6 @@
 // The explicit methods are stable on an undamped whirl up to h p = 2 (semi-implicit Euler, Verlet),
 // 2 sqrt(2) (Runge-Kutta 4) and 5.96 (Dormand-Prince 8); the implicit ones and the exact one at any
-// step. What rests on earlier steps is stable for less, and the less the more a motion is damped.
+// step. Multistep methods have lower limits, and the lower the more a motion is damped.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -71,7 +71,7 @@ void PrintTo(const DampedLimit& limit, std::ostream* out) {
 
 class StabilityLimitOfRates : public testing::TestWithParam<DampedLimit> {};
 
-// Where the largest root of the recurrence leaves the unit circle, by so much that 3000 steps tell.
+// Where the largest root of the recurrence leaves the unit circle, by enough to show in 3000 steps.
 TEST_P(StabilityLimitOfRates, IsWhereADampedWhirlBeginsToGrow) {
   const DampedLimit& limit = GetParam();
   double stable = 0.5 * limit.expected;

@@ -1,7 +1,5 @@
-// Steps further than the twin's, read off in between: as exact there as at their ends, and ended
-// where something from outside changes the motion.
-#include "integration/stepped_ahead.h"
-
+// Macro-steps with dense output: as accurate inside as at their ends, and terminated where an
+// external event changes the motion.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "allocation_guard.h"
+#include "integration/macro_step.h"
 #include "running_system.h"
 
 namespace whirl_twin {
@@ -24,7 +23,7 @@ class Read {
   Read(const RunningSystem::Setup& setup, const char* method, std::int64_t step, int substeps)
       : drive_(setup.speed, 0.0, setup.profile), step_(step) {
     const ModelInfo& model = *findModel(setup.model);
-    setup_ = model.setUp(completed(model, setup.parameters), {}, Surroundings(setup.gravity));
+    setup_ = model.setUp(completed(model, setup.parameters), {}, ModelContext(setup.gravity));
     system_ = setup_.system(method, {drive_, nullptr}, static_cast<double>(step) / 1e9, substeps);
     std::vector<double> v = setup.v;
     v.resize(setup.q.size());
@@ -103,7 +102,7 @@ RunningSystem::Setup onShaft() {
   return s;
 }
 
-TEST(SteppedAhead, IsAsExactBetweenAsAtTheEndsOfItsSteps) {
+TEST(MacroStep, IsAsExactBetweenAsAtTheEndsOfItsSteps) {
   constexpr std::int64_t kSteps = 4000;
   const auto truth = Read(arms(), "gauss_legendre_6", kMillisecond, 4).run(kSteps, 1);
   const auto errors = [&](int count) {
@@ -130,7 +129,7 @@ TEST(SteppedAhead, IsAsExactBetweenAsAtTheEndsOfItsSteps) {
   EXPECT_LT(coarse.second, 5.0 * ends(20).second);
 }
 
-TEST(SteppedAhead, ClosesTheAuditWithinItsSteps) {
+TEST(MacroStep, ClosesTheAuditWithinItsSteps) {
   Read pendulum(onShaft(), "stoermer_ahead", kMillisecond, 12);
   const double start = pendulum.jacobi({1.0, 0.0, 0.0});
   const auto states = pendulum.run(5000, 1);
@@ -143,7 +142,7 @@ TEST(SteppedAhead, ClosesTheAuditWithinItsSteps) {
 }
 
 // In the middle of a long step, again in the ramp that follows, and long after it.
-TEST(SteppedAhead, EndsALongStepWhereACommandChangesTheSpeed) {
+TEST(MacroStep, EndsALongStepWhereACommandChangesTheSpeed) {
   const auto command = [](Drive& drive, std::int64_t step) {
     if (step == 403 || step == 437 || step == 1501) {
       EXPECT_TRUE(drive.setSpeed(step == 437 ? 3.0 : 6.0, 25.0, 0.0));
@@ -155,7 +154,7 @@ TEST(SteppedAhead, EndsALongStepWhereACommandChangesTheSpeed) {
   EXPECT_LT(difference(ahead, fine).second, 1e-9);
 }
 
-TEST(SteppedAhead, TakesTheTwinsStepsThroughAProfileAndItsCorners) {
+TEST(MacroStep, TakesTheTwinsStepsThroughAProfileAndItsCorners) {
   RunningSystem::Setup s = onShaft();
   s.profile = {{6.0, 20.0, 0.0, 0.1234567}, {1.0, 25.0, 200.0, 0.5}};
   const auto ahead = Read(s, "stoermer_ahead", kMillisecond, 16).run(3000, 1);
@@ -164,7 +163,7 @@ TEST(SteppedAhead, TakesTheTwinsStepsThroughAProfileAndItsCorners) {
 }
 
 // Long steps are not stable where so much is damped, or lose the motion at once.
-TEST(SteppedAhead, TakesTheTwinsStepsWhereItsOwnDoNotFollow) {
+TEST(MacroStep, TakesTheTwinsStepsWhereItsOwnDoNotFollow) {
   for (const double damping : {3.0, 10.0, 30.0}) {
     RunningSystem::Setup s = onShaft();
     s.parameters["damping"] = damping;
@@ -174,14 +173,14 @@ TEST(SteppedAhead, TakesTheTwinsStepsWhereItsOwnDoNotFollow) {
   }
 }
 
-// Whatever was looked at, and when.
-TEST(SteppedAhead, MovesTheSameWhetherItIsReadOrNot) {
+// Independent of what is sampled, and when.
+TEST(MacroStep, MovesTheSameWhetherItIsReadOrNot) {
   const auto all = Read(arms(), "stoermer_ahead", kMillisecond, 16).run(999, 1);
   const auto last = Read(arms(), "stoermer_ahead", kMillisecond, 16).run(999, 999);
   EXPECT_EQ(all.back(), last.back());
 }
 
-TEST(SteppedAhead, GoesOnFromItsImageToTheBit) {
+TEST(MacroStep, GoesOnFromItsImageToTheBit) {
   Read first(onShaft(), "stoermer_ahead", kMillisecond, 16);
   first.run(405, 405);
   StateImage size = StateImage::taking(nullptr, 0);
@@ -197,11 +196,11 @@ TEST(SteppedAhead, GoesOnFromItsImageToTheBit) {
   StateImage put = StateImage::putting(bytes.data(), bytes.size());
   second.system().exchange(put);
   ASSERT_TRUE(put.sound());
-  // The drive, of constant speed, stands at another time, which the motion does not know of.
+  // The drive, of constant speed, is at another time, which does not affect the motion.
   EXPECT_EQ(second.run(500, 1), expected);
 }
 
-TEST(SteppedAhead, DoesNotAllocate) {
+TEST(MacroStep, DoesNotAllocate) {
   Read pendulum(onShaft(), "stoermer_ahead", kMillisecond, 16);
   Stepper& system = pendulum.system();
   std::vector<double> out(2 * system.dof() + 1);
@@ -217,7 +216,7 @@ TEST(SteppedAhead, DoesNotAllocate) {
   EXPECT_EQ(guard.allocations(), 0u);
 }
 
-/// Counts what is asked of it.
+/// Counts the calls.
 class Counting final : public ReadOffStepper {
  public:
   explicit Counting(int& steps) : steps_(steps) {}
@@ -231,7 +230,7 @@ class Counting final : public ReadOffStepper {
   std::size_t dof() const noexcept override { return 1; }
   void motion(double* out) const noexcept override { std::fill_n(out, 2, 0.0); }
   void write(double* out) const noexcept override { std::fill_n(out, 3, 0.0); }
-  void readOff(const StoermerReading&, bool, double* out) const noexcept override {
+  void readOff(const DenseOutputWeights&, bool, double* out) const noexcept override {
     std::fill_n(out, 3, 0.0);
   }
   bool follows() const noexcept override { return true; }
@@ -243,11 +242,11 @@ class Counting final : public ReadOffStepper {
 };
 
 // No step of the twin costs more than one of the method, however long it is.
-TEST(SteppedAhead, TakesAtMostOneStepOfTheMethodInOneOfTheTwin) {
+TEST(MacroStep, TakesAtMostOneStepOfTheMethodInOneOfTheTwin) {
   int far = 0;
   int near = 0;
-  SteppedAhead system(std::make_unique<Counting>(far), std::make_unique<Counting>(near),
-                      kStoermerSchemes[2], nullptr, 0.016, 16);
+  MacroStep system(std::make_unique<Counting>(far), std::make_unique<Counting>(near),
+                   kStoermerSchemes[2], nullptr, 0.016, 16);
   const double zero = 0.0;
   system.set(&zero, &zero);
   for (int i = 0; i < 160; ++i) {

@@ -1,5 +1,5 @@
-// A method that rests on the steps before must forget them where the law of the motion changes: at
-// every corner, command and change its error stays that of a smooth motion.
+// A multistep method must discard its history where the equations change: at every breakpoint,
+// command and parameter change its error stays that of a smooth motion.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -98,12 +98,12 @@ TEST(StoermerWeights, AreExactForPolynomials) {
   }
 }
 
-// The same, read off at a share x of the step: what is left out of the straight line, of the mean
-// rate and of the work to the end.
+// The same as dense output at a fraction x of the step: the deviation from the straight line, of
+// the mean rate and of the work to the end.
 TEST(StoermerWeights, ReadOffPolynomialsWithinAStep) {
   for (const StoermerScheme& scheme : kStoermerSchemes) {
     for (const double x : {0.0, 0.125, 0.5, 0.9, 1.0}) {
-      const StoermerReading reading(scheme, x);
+      const DenseOutputWeights reading(scheme, x);
       for (std::size_t k = 0; k < scheme.terms; ++k) {
         double position = 0.0;
         double rate = 0.0;
@@ -152,7 +152,7 @@ TEST_P(Stoermer, ForgetsWhenACommandChangesTheSpeed) {
   const RunningSystem::Setup s = onShaft();
   const ModelInfo& model = *findModel(s.model);
   const auto run = [&](const char* method, std::int64_t step) {
-    const ModelSetup setup = model.setUp(completed(model, s.parameters), {}, Surroundings(9.81));
+    const ModelSetup setup = model.setUp(completed(model, s.parameters), {}, ModelContext(9.81));
     Drive drive(s.speed, 0.0);
     const auto system = setup.system(method, {drive, nullptr}, static_cast<double>(step) / 1e9, 1);
     const double v = 0.0;
@@ -198,7 +198,7 @@ TEST_P(Stoermer, ForgetsWhenACommandChangesAHeldInput) {
       EXPECT_NEAR(own.state()[i], fine.state()[i], 1e-10) << torque;
     }
   }
-  // The held inputs' work and what the motion gained.
+  // The work of the zero-order-held inputs and the energy gained.
   const RunningSystem start(s, GetParam().method, GetParam().step);
   EXPECT_NEAR(own.energies().jacobi - start.energies().jacobi, own.work(), 1e-10);
 }
@@ -206,7 +206,7 @@ TEST_P(Stoermer, ForgetsWhenACommandChangesAHeldInput) {
 TEST_P(Stoermer, GoesOnFromAStateThatIsSetAsOneThatStartsThere) {
   const RunningSystem::Setup s = onShaft();
   const ModelInfo& model = *findModel(s.model);
-  const ModelSetup setup = model.setUp(completed(model, s.parameters), {}, Surroundings(9.81));
+  const ModelSetup setup = model.setUp(completed(model, s.parameters), {}, ModelContext(9.81));
   const Drive drive(s.speed, 0.0);
   const double seconds = static_cast<double>(GetParam().step) / 1e9;
   const auto fresh = setup.system(GetParam().method, {drive, nullptr}, seconds, 1);
@@ -232,7 +232,7 @@ TEST_P(Stoermer, GoesOnFromAStateThatIsSetAsOneThatStartsThere) {
   EXPECT_EQ(fresh->errorSum(), used->errorSum());
 }
 
-// A shaft whose angle is stepped as whole turns and a rest: those that are taken off are no jump.
+// A shaft whose angle is stored as whole turns and a remainder: removing turns is not a jump.
 TEST_P(Stoermer, KeepsItsPastWhenASpinHasGoneRound) {
   RunningSystem::Setup s;
   s.model = "jeffcott_rotor";

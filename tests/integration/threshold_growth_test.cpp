@@ -1,5 +1,5 @@
-// The threshold speed of a rotor's instability, found by the growth of its whirl in time: that of
-// the formula, of Routh's test and of the eigenvalues (catalogue, "named whirl causes").
+// The threshold speed of a rotor's instability from the growth of its whirl in time: it agrees with
+// the formula, Routh's test and the eigenvalues (catalogue, "named whirl causes").
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,5 @@
-// The phasor of a shaft from step to step, and forces that turn with it, against the sines and
-// cosines and the equations they stand for.
-#include "integration/turning_force.h"
-
+// The phasor of a shaft from step to step, and synchronous forces, against the sines and cosines
+// and the equations that they replace.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,6 +8,7 @@
 
 #include "control/shaft_angle.h"
 #include "integration/shaft_phasor.h"
+#include "integration/synchronous_force.h"
 
 namespace whirl_twin {
 namespace turning_force_test {
@@ -42,7 +41,7 @@ TEST(ShaftPhasor, FollowsAShaftThatDoesWhatWasNotForeseen) {
 
 using Array = std::array<double, 2>;
 
-Array unbalanced(const Moment<double>& at) {
+Array unbalanced(const EvaluationPoint<double>& at) {
   const double force = at.speed * at.speed;
   const double c = std::cos(at.angle + 0.3);
   const double s = std::sin(at.angle + 0.3);
@@ -50,12 +49,12 @@ Array unbalanced(const Moment<double>& at) {
           1.0e-4 * (force * s - at.acceleration * c) + 0.02 * std::sin(at.angle - 1.0) - 9.8};
 }
 
-TEST(TurningForce, IsThatOfTheEquations) {
-  TurningForce<2> force;
+TEST(SynchronousForce, IsThatOfTheEquations) {
+  SynchronousForce<2> force;
   ASSERT_TRUE(force.find(unbalanced, 128.0));
-  for (const Moment<double>& at :
-       {Moment<double>{0.0, 0.0, 0.0, 0.0}, Moment<double>{3.0, 2.0, -70.0, 40.0},
-        Moment<double>{5.0, 5.5, 900.0, -1000.0}}) {
+  for (const EvaluationPoint<double>& at :
+       {EvaluationPoint<double>{0.0, 0.0, 0.0, 0.0}, EvaluationPoint<double>{3.0, 2.0, -70.0, 40.0},
+        EvaluationPoint<double>{5.0, 5.5, 900.0, -1000.0}}) {
     const Array expected = unbalanced(at);
     const Array found = force.at(at);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -64,20 +63,20 @@ TEST(TurningForce, IsThatOfTheEquations) {
   }
 }
 
-TEST(TurningForce, RefusesWhatTurnsOtherwise) {
-  TurningForce<2> force;
+TEST(SynchronousForce, RefusesWhatTurnsOtherwise) {
+  SynchronousForce<2> force;
   EXPECT_FALSE(force.find(
-      [](const Moment<double>& at) {
+      [](const EvaluationPoint<double>& at) {
         return Array{std::cos(2.0 * at.angle), 0.0};
       },
       128.0));
   EXPECT_FALSE(force.find(
-      [](const Moment<double>& at) {
+      [](const EvaluationPoint<double>& at) {
         return Array{std::cos(at.angle), 1.0e-6 * std::sin(50.0 * at.time)};
       },
       128.0));
   EXPECT_FALSE(force.find(
-      [](const Moment<double>& at) {
+      [](const EvaluationPoint<double>& at) {
         return Array{1.0e-4 * at.speed * at.speed * std::cos(at.angle), 0.0};
       },
       128.0))

@@ -1,5 +1,5 @@
-// Dual numbers carry the exact derivatives of whatever is computed with them: random expressions
-// against finite differences in 50-digit arithmetic.
+// Dual numbers give exact derivatives of any expression: random expressions against finite
+// differences in 50-digit arithmetic.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -19,9 +19,9 @@ TEST_P(EnergyBalanceOf, PowerIsTheRateOfTheJacobiIntegral) {
     const auto a = s.dynamics->acceleration(s.q, s.v, s.at);
     // A curve through the state with the motion's rates: dh/dt needs no more.
     const auto jacobi = [&](double d) {
-      const Moment<double> at{s.at.time + d,
-                              s.at.angle + d * (s.at.speed + 0.5 * d * s.at.acceleration),
-                              s.at.speed + d * s.at.acceleration, s.at.acceleration};
+      const EvaluationPoint<double> at{s.at.time + d,
+                                       s.at.angle + d * (s.at.speed + 0.5 * d * s.at.acceleration),
+                                       s.at.speed + d * s.at.acceleration, s.at.acceleration};
       return s.dynamics->energies(s.q + d * s.v, s.v + d * a, at).jacobi;
     };
     const auto difference = [&](double d) { return (jacobi(d) - jacobi(-d)) / (2.0 * d); };
@@ -34,8 +34,8 @@ TEST_P(EnergyBalanceOf, PowerIsTheRateOfTheJacobiIntegral) {
     const double size =
         (std::abs(e.kinetic) + std::abs(e.potential) + std::abs(e.jacobi)) * 1e-3 / d;
     ASSERT_NEAR(e.input_power - e.dissipated_power, rate, 1e-10 * size) << "state " << i;
-    // A turning shaft brings terms linear in the rates; the spin's own energy is left out.
-    Moment<double> standing = s.at;
+    // A rotating shaft adds terms linear in the rates; the energy of the spin itself is excluded.
+    EvaluationPoint<double> standing = s.at;
     standing.speed = 0.0;
     ASSERT_GE(s.dynamics->energies(s.q, s.v, standing).kinetic, 0.0);
   }

@@ -1,4 +1,4 @@
-// The derived equations of motion are the ones a careful person writes by hand.
+// The derived equations of motion agree with hand-written ones.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -71,7 +71,7 @@ TEST(HandWritten, MotorsOfADoublePendulum) {
     ParameterValues parameters = with.parameters;
     parameters["motor_inertia1"] = parameters["motor_inertia2"] = 0.0;
     const auto without = findModel("double_pendulum")
-                             ->setUp(parameters, driven.settings, Surroundings(with.gravity))
+                             ->setUp(parameters, driven.settings, ModelContext(with.gravity))
                              .dynamics;
     const Eigen::MatrixXd added = with.dynamics->massMatrix(with.q, with.v, with.at) -
                                   without->massMatrix(with.q, with.v, with.at);
@@ -82,8 +82,8 @@ TEST(HandWritten, MotorsOfADoublePendulum) {
   }
 }
 
-// Air that meets each arm at one point, against its velocity u: F = -k |u| u. What it adds to M a
-// is the sum of (du / dv_j) . F, however the coordinates are chosen.
+// Air drag at one point of each arm, with its velocity u: F = -k |u| u. Its contribution to M a is
+// the sum of (du / dv_j) . F, in any coordinates.
 TEST(HandWritten, AirOnADoublePendulum) {
   std::mt19937_64 random(1726);
   const ParameterValues air{
@@ -96,7 +96,7 @@ TEST(HandWritten, AirOnADoublePendulum) {
       ParameterValues parameters = with.parameters;
       parameters["drag1"] = parameters["drag2"] = 0.0;
       const auto without = findModel("double_pendulum")
-                               ->setUp(parameters, in_air.settings, Surroundings(with.gravity))
+                               ->setUp(parameters, in_air.settings, ModelContext(with.gravity))
                                .dynamics;
       const Eigen::MatrixXd mass = with.dynamics->massMatrix(with.q, with.v, with.at);
       const Vector added = mass * (with.dynamics->acceleration(with.q, with.v, with.at) -

@@ -1,5 +1,5 @@
-// A linear system given by its matrices says the same as the same system given by its energies, and
-// keeps the balance of energy and of momentum.
+// A linear system given by its matrices agrees with the same system given by its energies, and
+// satisfies the balance of energy and of momentum.
 #include "mechanics/linear_dynamics.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "mechanics/lagrangian_dynamics.h"
 #include "mechanics/rotors/jeffcott_rotor.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace linear_dynamics_test {
@@ -65,13 +65,13 @@ TEST(LinearDynamics, OfARotorsMatricesIsTheRotor) {
   model.circulatory << 0.0, whirling, -whirling, 0.0;
   const LinearDynamics linear(model);
   const LagrangianDynamics<JeffcottRotor> energies(rotor);
-  const Moment<double> at{0.3, 0.8, speed, 0.0};
+  const EvaluationPoint<double> at{0.3, 0.8, speed, 0.0};
   const VectorXd q = (VectorXd(2) << 0.01, -0.03).finished();
   const VectorXd v = (VectorXd(2) << 0.2, 0.5).finished();
   // Sums of a few products: rounding only.
   EXPECT_TRUE(linear.acceleration(q, v, at).isApprox(energies.acceleration(q, v, at), 1e-14));
   EXPECT_TRUE(linear.momenta(q, v, at).isApprox(energies.momenta(q, v, at), 1e-14));
-  EXPECT_TRUE(linear.unbalancedForce(q, v, at).isApprox(energies.unbalancedForce(q, v, at), 1e-14));
+  EXPECT_TRUE(linear.residualForce(q, v, at).isApprox(energies.residualForce(q, v, at), 1e-14));
   EXPECT_TRUE(linear.appliedForce(q, v, at).isApprox(energies.appliedForce(q, v, at), 1e-14));
   const Energies mine = linear.energies(q, v, at);
   const Energies theirs = energies.energies(q, v, at);
@@ -92,7 +92,7 @@ TEST(LinearDynamics, GainsTheEnergyThatForcesBringAndDampingDoesNotTake) {
   const LinearDynamics dynamics(fullModel());
   const VectorXd q = VectorXd::LinSpaced(5, -0.4, 0.7);
   const VectorXd v = VectorXd::LinSpaced(5, 1.2, -0.3);
-  const Moment<double> at{1.7, 0.0, 0.0, 0.0};
+  const EvaluationPoint<double> at{1.7, 0.0, 0.0, 0.0};
   const VectorXd a = dynamics.acceleration(q, v, at);
   const Energies e = dynamics.energies(q, v, at);
   const double rate = v.dot(dynamics.linearModel().mass * a + dynamics.linearModel().stiffness * q);
@@ -106,7 +106,7 @@ TEST(LinearDynamics, HasTheMomentumOfItsLagrangian) {
   const LinearModel& m = dynamics.linearModel();
   const VectorXd q = VectorXd::LinSpaced(5, 0.1, 0.9);
   const VectorXd v = VectorXd::LinSpaced(5, -2.0, 0.5);
-  const Moment<double> at{0.4, 0.0, 0.0, 0.0};
+  const EvaluationPoint<double> at{0.4, 0.0, 0.0, 0.0};
   const VectorXd a = dynamics.acceleration(q, v, at);
   const VectorXd momentum_rate = dynamics.momenta(v, a, at);  // linear in (q, v)
   const VectorXd by_q = -0.5 * m.gyroscopic * v - m.stiffness * q;
@@ -119,7 +119,7 @@ TEST(LinearDynamics, KeepsOnlyTheConstantForcesAtMeanLoad) {
   const VectorXd zero = VectorXd::Zero(5);
   const HarmonicForce& constant = dynamics.linearModel().forces[0];
   for (const double time : {0.0, 0.6, 12.3}) {
-    EXPECT_TRUE(mean.unbalancedForce(zero, zero, {time, 0.0, 0.0, 0.0})
+    EXPECT_TRUE(mean.residualForce(zero, zero, {time, 0.0, 0.0, 0.0})
                     .isApprox(constant.amplitude * std::cos(constant.phase), 1e-15));
   }
   EXPECT_EQ(&mean.atMeanLoad(), &mean);
@@ -143,7 +143,7 @@ TEST(LinearDynamics, RefusesWhatIsNoSystem) {
   EXPECT_THROW(LinearDynamics{model}, std::logic_error);
   model = freeModel(3);
   model.mass(1, 1) = 0.0;
-  EXPECT_THROW(LinearDynamics{model}, Refusal);
+  EXPECT_THROW(LinearDynamics{model}, InputError);
   model = freeModel(3);
   model.forces = {{VectorXd::Ones(2), 0.0, 0.0}};
   EXPECT_THROW(LinearDynamics{model}, std::logic_error);

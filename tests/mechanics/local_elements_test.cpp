@@ -1,5 +1,5 @@
-// The laws of what stands beside a shaft: closed forms of films on circular orbits, contact and
-// friction, and slopes that are those of the forces.
+// Nodal forces of elements around a shaft: closed forms of oil films on circular orbits, contact
+// and friction, and derivatives consistent with the forces.
 #include "mechanics/local_elements.h"
 
 #include <gtest/gtest.h>
@@ -14,15 +14,15 @@ namespace local_elements_test {
 constexpr double kPi = 3.14159265358979323846;
 constexpr ShortJournalBearing kBearing{0.02, 0.05, 1.0e-4, 0.03};
 
-LocalPush pushOf(const LocalLaw& law, const LocalState& at) {
-  LocalPush push;
+NodalForce pushOf(const NodalForceLaw& law, const LocalState& at) {
+  NodalForce push;
   EXPECT_TRUE(law.push(at, push));
   return push;
 }
 
 /// With the damping that is the rotor's own.
-LocalPush wholePushOf(const OilFilm& film, const LocalState& at) {
-  LocalPush push = pushOf(*localLaw(film), at);
+NodalForce wholePushOf(const OilFilm& film, const LocalState& at) {
+  NodalForce push = pushOf(*localLaw(film), at);
   for (std::size_t i = 0; i < 2; ++i) {
     push.force[i] -= film.linearDamping() * at.rate[i];
   }
@@ -43,14 +43,14 @@ TEST(SqueezeFilm, HasTheClosedFormOfACircularOrbit) {
     const double damping = 0.5 * kPi * scale / std::pow(rest, 1.5);
     // Where the shaft turns does not matter.
     const LocalState at{{e * c, 0.0}, {0.0, whirl * e * c}, {}, 777.0};
-    const LocalPush push = wholePushOf(film, at);
+    const NodalForce push = wholePushOf(film, at);
     EXPECT_NEAR(push.force[0], -stiffness * e * c, 1e-9 * stiffness * c) << e;
     EXPECT_NEAR(push.force[1], -damping * whirl * e * c, 1e-9 * damping * whirl * c) << e;
   }
 }
 
-// Ocvirk's journal: it carries the load where his locus says, with the coefficients that
-// coefficients() gives, and a whirl at half its speed meets no resistance.
+// Ocvirk's journal bearing: it carries the load on his locus, with the coefficients of
+// coefficients(), and a whirl at half its speed meets no resistance.
 TEST(JournalFilm, CarriesItsLoadOnOcvirksLocus) {
   const OilFilm film{kBearing, true};
   const auto law = localLaw(film);
@@ -60,7 +60,7 @@ TEST(JournalFilm, CarriesItsLoadOnOcvirksLocus) {
   const double e = rest.eccentricity;
   EXPECT_NEAR(std::tan(rest.attitude), kPi * std::sqrt(1.0 - e * e) / (4.0 * e), 1e-12);
   const LocalState at{{rest.x, rest.y}, {}, {}, speed};
-  const LocalPush push = pushOf(*law, at);
+  const NodalForce push = pushOf(*law, at);
   EXPECT_NEAR(push.force[0], 0.0, 1e-7 * load);
   EXPECT_NEAR(push.force[1], load, 1e-7 * load);
   const BearingCoefficients b = kBearing.coefficients(load, speed);
@@ -72,14 +72,14 @@ TEST(JournalFilm, CarriesItsLoadOnOcvirksLocus) {
   EXPECT_LT((slopes.stiffness - k).norm(), 1e-12 * k.norm());
   EXPECT_LT((slopes.damping - c).norm(), 1e-12 * c.norm());
   const double radius = 0.5 * kBearing.clearance;
-  const LocalPush whirling =
+  const NodalForce whirling =
       wholePushOf(film, {{radius, 0.0}, {0.0, 0.5 * speed * radius}, {}, speed});
   EXPECT_LT(std::hypot(whirling.force[0], whirling.force[1]), 1e-6 * load);
 }
 
 TEST(JournalFilm, HasNoPlaceBeyondItsClearance) {
   const auto law = localLaw(OilFilm{kBearing, true});
-  LocalPush push;
+  NodalForce push;
   for (const double x : {kBearing.clearance, 2.0 * kBearing.clearance, std::nan("")}) {
     EXPECT_FALSE(law->push({{x, 0.0}, {}, {}, 100.0}, push)) << x;
   }
@@ -94,7 +94,7 @@ TEST(RubElement, TouchesBeyondItsClearanceOnlyAndDragsAgainstTheSliding) {
   at.place = {0.0, 1.5e-3};
   at.rate = {0.0, 0.02};
   // At the top the surface slides along -x where the shaft turns forwards.
-  const LocalPush push = pushOf(*law, at);
+  const NodalForce push = pushOf(*law, at);
   const double load = 1.0e6 * 0.5e-3;
   EXPECT_NEAR(push.force[1], -load - 50.0 * 0.02, 1e-9 * load);
   EXPECT_NEAR(push.force[0], 0.2 * load, 1e-7 * load);
@@ -105,13 +105,13 @@ TEST(RubElement, TouchesBeyondItsClearanceOnlyAndDragsAgainstTheSliding) {
 
 TEST(CubicSpring, PullsTowardsTheMiddleWithTheThirdPower) {
   const auto law = localLaw(CubicSpring{2.0e12});
-  const LocalPush push = pushOf(*law, {{3.0e-4, -4.0e-4}, {5.0, 5.0}, {}, 10.0});
+  const NodalForce push = pushOf(*law, {{3.0e-4, -4.0e-4}, {5.0, 5.0}, {}, 10.0});
   EXPECT_NEAR(push.force[0], -2.0e12 * 25.0e-8 * 3.0e-4, 1e-9);
   EXPECT_NEAR(push.force[1], 2.0e12 * 25.0e-8 * 4.0e-4, 1e-9);
 }
 
 TEST(LocalElements, TellTheSlopesOfWhatTheyPushWith) {
-  const std::vector<std::shared_ptr<const LocalLaw>> laws{
+  const std::vector<std::shared_ptr<const NodalForceLaw>> laws{
       localLaw(CubicSpring{2.0e12}), localLaw(Rub{4.0e-5, 1.0e6, 50.0, 0.2, 0.1}),
       localLaw(OilFilm{kBearing, true}), localLaw(OilFilm{kBearing, false})};
   const LocalState at{{3.0e-5, -5.0e-5}, {2.0e-3, 4.0e-3}, {}, 90.0};
@@ -123,8 +123,8 @@ TEST(LocalElements, TellTheSlopesOfWhatTheyPushWith) {
         LocalState more = at, less = at;
         (rate ? more.rate : more.place)[axis] += by;
         (rate ? less.rate : less.place)[axis] -= by;
-        const LocalPush up = pushOf(*law, more);
-        const LocalPush down = pushOf(*law, less);
+        const NodalForce up = pushOf(*law, more);
+        const NodalForce down = pushOf(*law, less);
         const Eigen::Matrix2d& slope = rate ? slopes.damping : slopes.stiffness;
         for (std::size_t i = 0; i < 2; ++i) {
           EXPECT_NEAR(slope(static_cast<int>(i), static_cast<int>(axis)),

@@ -1,5 +1,5 @@
-// The force of a magnetic bearing: near the middle what data sheets say, far from it as its poles
-// pull, and no more than they can.
+// The force of a magnetic bearing: near the centre the data-sheet values, far from it the pull of
+// its poles, limited to their maximum.
 #include "mechanics/magnetic_bearing.h"
 
 #include <gtest/gtest.h>
@@ -25,12 +25,12 @@ TEST(MagneticBearing, IsNearTheMiddleWhatItsDataSheetSays) {
   EXPECT_EQ(middle.force, 0.0);
   EXPECT_DOUBLE_EQ(middle.by_current, kKi);
   EXPECT_DOUBLE_EQ(middle.by_place, magnet.ks());
-  // What is left of the linear law is of third order: the poles oppose each other.
+  // The deviation from the linear law is of third order: the poles oppose each other.
   for (const double share : {1.0e-2, 1.0e-3}) {
     LocalState at;
     at.place = {share * kGap, -share * kGap};
     at.input = {-share * kBias, 0.0};
-    LocalPush push;
+    NodalForce push;
     ASSERT_TRUE(magnet.push(at, push));
     EXPECT_LT(std::fabs(push.force[0]), 10.0 * share * share * share * kKi * kBias);
     EXPECT_LT(std::fabs(push.force[1]), 10.0 * share * share * share * kKi * kBias);
@@ -75,7 +75,7 @@ TEST(MagneticBearing, TellsTheSlopesOfWhatItPushesWith) {
       const LocalSlopes slopes = magnet.slopes(at);
       for (std::size_t axis = 0; axis < 2; ++axis) {
         LocalState more = at, less = at;
-        LocalPush up, down;
+        NodalForce up, down;
         more.place[axis] += kPart * kGap;
         less.place[axis] -= kPart * kGap;
         ASSERT_TRUE(magnet.push(more, up) && magnet.push(less, down));
@@ -108,7 +108,7 @@ TEST(MagneticBearing, PullsNoMoreThanItsIronCarries) {
 
 TEST(MagneticBearing, HasNoForceWhereItHasNoGap) {
   const MagneticBearing magnet(kKi, kBias, kGap, kFull);
-  LocalPush push;
+  NodalForce push;
   LocalState at;
   at.place = {0.0, 0.999 * kGap};
   EXPECT_TRUE(magnet.push(at, push));

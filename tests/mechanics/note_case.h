@@ -1,5 +1,5 @@
-// The lecture notes' reference numbers (tests/reference/note_cases.json), and what the models say
-// to each of them.
+// The lecture notes' reference numbers (tests/reference/note_cases.json), and the models' results
+// for each of them.
 #pragma once
 
 #include <cctype>
@@ -77,7 +77,7 @@ inline std::vector<NoteCase> noteCases(const std::string& system = "") {
   return cases;
 }
 
-/// What the model of this program answers, one value a method that applies; empty: not answered.
+/// The model's results, one value per applicable method; empty: not covered.
 std::vector<double> spinningPendulumAnswers(const NoteCase& c);
 std::vector<double> doublePendulumAnswers(const NoteCase& c);
 std::vector<double> relativeDoublePendulumAnswers(const NoteCase& c);

@@ -1,5 +1,5 @@
-// What the hinged beam answers to the lecture notes' reference numbers: small angles as printed,
-// and the finite rotation.
+// The hinged beam against the lecture notes' reference numbers: small angles as printed, and the
+// finite rotation.
 #include "note_system.h"
 
 namespace whirl_twin {
@@ -35,7 +35,7 @@ std::vector<double> rigidBeamAnswers(const NoteCase& given) {
   }
   if (c.startsWith("rigid_beam.static.")) {
     return {zeroBetween(-1.0, 1.0, [&](double theta) {
-      return system.dynamics().unbalancedForce(vector({theta}), vector({0.0}), {})[0];
+      return system.dynamics().residualForce(vector({theta}), vector({0.0}), {})[0];
     })};
   }
   return {};

@@ -1,5 +1,5 @@
-// What the double pendulum answers to the lecture notes' reference numbers, in absolute and in
-// relative angles.
+// The double pendulum against the lecture notes' reference numbers, in absolute and in relative
+// angles.
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -20,7 +20,7 @@ NoteSystem doublePendulum(const NoteCase& c, const std::string& coordinates) {
           choice("coordinates", coordinates)};
 }
 
-/// An entry of M or K that the case asks for by "M12" at its end.
+/// An entry of M or K, selected by "M12" at the end of the case's name.
 std::vector<double> entry(const NoteCase& c, const Linearization& l) {
   const std::string asked = c.id.substr(c.id.size() - 3);
   const Eigen::MatrixXd matrix = asked[0] == 'M' ? l.mass : l.stiffness + l.circulatory;

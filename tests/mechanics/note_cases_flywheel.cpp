@@ -1,5 +1,5 @@
-// What the flywheel with sliding masses and the governor answer to the lecture notes' reference
-// numbers: steady rotations, and small motion about them.
+// The flywheel with sliding masses and the governor against the lecture notes' reference numbers:
+// steady rotations, and the linearized motion about them.
 #include <Eigen/LU>
 
 #include "note_system.h"
@@ -18,7 +18,7 @@ ParameterValues flywheelParameters(const NoteCase& c) {
 /// Where the sliders stay at the speed w.
 double steadyRadius(const NoteSystem& symmetric, double w) {
   return zeroBetween(0.0, 10.0, [&](double rho) {
-    return symmetric.dynamics().unbalancedForce(vector({rho, 0.0}), vector({0.0, w}), {})[0];
+    return symmetric.dynamics().residualForce(vector({rho, 0.0}), vector({0.0, w}), {})[0];
   });
 }
 
@@ -40,8 +40,8 @@ std::vector<double> symmetricFlywheelAnswers(const NoteCase& c) {
   if (c.startsWith("flywheel.r.")) {
     return {rho};
   }
-  // The wheel answers to the slider's motion so that its angular momentum is kept: det(M s^2 + G s
-  // + K) = s^2 [M11 M22 s^2 + K11 M22 - G12 G21].
+  // The wheel reacts to the slider's motion so that its angular momentum is conserved: det(M s^2 +
+  // G s + K) = s^2 [M11 M22 s^2 + K11 M22 - G12 G21].
   const Linearization l = system.linearAt({rho, 0.0}, {0.0, w});
   const double squared =
       (l.stiffness(0, 0) - l.gyroscopic(0, 1) * l.gyroscopic(1, 0) / l.mass(1, 1)) / l.mass(0, 0);
@@ -85,8 +85,7 @@ std::vector<double> governorAnswers(const NoteCase& c) {
                            {"torque", c.at("kap")},
                            {"load", c.at("F")}});
   const auto force = [&](double theta, double w, int coordinate) {
-    return system.dynamics().unbalancedForce(vector({theta, 0.0}), vector({0.0, w}),
-                                             {})[coordinate];
+    return system.dynamics().residualForce(vector({theta, 0.0}), vector({0.0, w}), {})[coordinate];
   };
   const double theta =
       zeroBetween(0.0, 0.5 * M_PI, [&](double angle) { return force(angle, 0.0, 1); });

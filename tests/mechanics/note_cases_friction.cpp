@@ -1,5 +1,5 @@
-// What the plank on two rollers answers to the lecture notes' reference numbers: exact sliding, and
-// the rounded-off friction where a case gives its width.
+// The plank on two rollers against the lecture notes' reference numbers: exact sliding, and the
+// regularized friction where a case gives its width.
 #include "note_system.h"
 
 namespace whirl_twin {

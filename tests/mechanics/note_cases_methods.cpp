@@ -1,5 +1,5 @@
-// What the methods of src/analysis answer to the lecture notes' reference numbers: the lever with
-// three masses, the beam without supports ("submarine"), the cantilever in assumed modes.
+// The methods of src/analysis against the lecture notes' reference numbers: the lever with three
+// masses, the beam without supports ("submarine"), the cantilever in assumed modes.
 #include <Eigen/LU>
 
 #include "algebra/dense.h"
@@ -122,7 +122,7 @@ struct NoteShapes {
   }
 };
 
-/// Where the shape of mode 2 crosses the line of rest.
+/// Position of the node of mode 2.
 double nodeOfSecondMode(const CantileverModes& beam) {
   const VectorXd q = naturalModes(beam.mass, beam.stiffness).shapes.col(1);
   return zeroBetween(0.5, 0.99, [&](double x) { return q.dot(beam.shapes(x)); });
@@ -196,7 +196,7 @@ std::vector<double> submarineAnswers(const NoteCase& c) {
 }
 
 std::vector<double> cantileverAnswers(const NoteCase& c) {
-  // The exact beam is where many shapes lead.
+  // The exact beam is the limit of many shapes.
   const int count = c.contains(".exact") ? 20 : static_cast<int>(c.at("N", 2.0));
   const CantileverModes beam =
       cantileverModes(c.at("m", 1.0), c.at("L", 1.0), c.at("EI", 1.0), count);
@@ -229,7 +229,7 @@ std::vector<double> cantileverAnswers(const NoteCase& c) {
   if (asked.front() == 'p' || c.contains(".exact.p") || c.contains(".ritz")) {
     return {modes.frequencies[lastDigit(c) - 1]};
   }
-  // lambda^2 - B lambda + C = 0 of two shapes; the shapes' mass matrix is diagonal.
+  // lambda^2 - B lambda + C = 0 for two modes; their mass matrix is diagonal.
   const VectorXd per_mass = beam.mass.diagonal().cwiseInverse();
   const MatrixXd system = per_mass.asDiagonal() * beam.stiffness;
   const double sum = system.trace();

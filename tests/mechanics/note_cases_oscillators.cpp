@@ -1,4 +1,4 @@
-// What the two-bar linkage and the rolling disc answer to the lecture notes' reference numbers.
+// The two-bar linkage and the rolling disc against the lecture notes' reference numbers.
 #include "note_system.h"
 
 namespace whirl_twin {
@@ -65,9 +65,9 @@ std::vector<double> eccentricDiscAnswers(const NoteCase& c) {
   const auto squaredFrequencyAt = [&](double x) {
     return squaredFrequencies(system.linearAt({x}))[0];
   };
-  // Half a turn on, the weight pulls away from the middle. The stiffest spring that it can still
-  // hold is where its line touches the weight's force: there the force left over, f, changes with x
-  // as f / x does.
+  // After half a turn, the weight pulls away from the middle. The largest spring stiffness for
+  // which it can still balance the spring is where the spring's line is tangent to the weight's
+  // force: there the net force f changes with x as f / x does.
   const double stiffest =
       zeroBetween(r * M_PI, r * 1.5 * M_PI, [&](double x) { return stiffness(x) * x + force(x); });
   const auto equilibrium = [&](bool stable) {

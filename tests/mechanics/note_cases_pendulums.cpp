@@ -1,4 +1,4 @@
-// What the spinning pendulum answers to the lecture notes' reference numbers.
+// The spinning pendulum against the lecture notes' reference numbers.
 #include "note_system.h"
 
 namespace whirl_twin {
@@ -13,7 +13,7 @@ std::vector<double> spinningPendulumAnswers(const NoteCase& c) {
   setup.v = {c.at("ic_theta_d", 0.0)};
   const ModelInfo& model = *findModel(setup.model);
   const auto pendulum = model.setUp(completed(model, setup.parameters), {}, setup.gravity).dynamics;
-  const Moment<double> at{0.0, 0.0, setup.speed, 0.0};
+  const EvaluationPoint<double> at{0.0, 0.0, setup.speed, 0.0};
   const auto squaredFrequencyAt = [&](double theta) {
     return squaredFrequencies(
         pendulum->linearization(vector({theta}), vector({0.0}), vector({0.0}), at))[0];
@@ -24,7 +24,7 @@ std::vector<double> spinningPendulumAnswers(const NoteCase& c) {
     double high = 3.0;
     while (0.5 * (low + high) > low && 0.5 * (low + high) < high) {
       const double middle = 0.5 * (low + high);
-      const double force = pendulum->unbalancedForce(vector({middle}), vector({0.0}), at)[0];
+      const double force = pendulum->residualForce(vector({middle}), vector({0.0}), at)[0];
       (force > 0.0 ? low : high) = middle;
     }
     return low;

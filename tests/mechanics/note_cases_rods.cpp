@@ -1,5 +1,5 @@
-// What the pendulums on a cart, with a slider, held by a spring and turning freely answer to the
-// lecture notes' reference numbers.
+// The pendulums on a cart, with a slider, held by a spring and rotating freely against the lecture
+// notes' reference numbers.
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -76,7 +76,7 @@ std::vector<double> cartAnswers(const NoteCase& c) {
   const Linearization l = unloaded.linearAt({0.0, 0.0});
   const auto load = [&](const ParameterValues& loads, double time) {
     const NoteSystem loaded = cart(c, loads);
-    return Eigen::Vector2d(loaded.dynamics().unbalancedForce(
+    return Eigen::Vector2d(loaded.dynamics().residualForce(
         Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), {time, 0.0, 0.0, 0.0}));
   };
   const Eigen::Vector2d of_force = load({{"force_amplitude", 1.0}}, 0.0);

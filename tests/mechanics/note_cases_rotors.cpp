@@ -1,4 +1,4 @@
-// What the Jeffcott rotor answers to the lecture notes' reference numbers.
+// The Jeffcott rotor against the lecture notes' reference numbers.
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -34,8 +34,8 @@ Linearization linearAt(const Dynamics& rotor, double speed) {
 Complex synchronousWhirl(const Dynamics& rotor, double speed) {
   const Linearization l = linearAt(rotor, speed);
   const Vector zero = Vector::Zero(2);
-  const Vector ahead = rotor.unbalancedForce(zero, zero, {0.0, 0.0, speed, 0.0});
-  const Vector aside = rotor.unbalancedForce(zero, zero, {0.0, M_PI / 2.0, speed, 0.0});
+  const Vector ahead = rotor.residualForce(zero, zero, {0.0, 0.0, speed, 0.0});
+  const Vector aside = rotor.residualForce(zero, zero, {0.0, M_PI / 2.0, speed, 0.0});
   const Eigen::Vector2cd force = ahead.cast<Complex>() - Complex(0.0, 1.0) * aside.cast<Complex>();
   const Eigen::Matrix2cd stiffness =
       (l.stiffness + l.circulatory - speed * speed * l.mass).cast<Complex>() +

@@ -13,7 +13,7 @@ namespace note_cases_test {
 
 using Answers = std::vector<double> (*)(const NoteCase&);
 
-// Systems of the notes that a model of this program stands for, with the number of their cases.
+// Systems of the notes that a model of this program covers, with the number of their cases.
 struct Modelled {
   std::size_t cases;
   Answers answers;
@@ -50,7 +50,7 @@ const std::map<std::string, Modelled> kModelled{
     {"gyro_disc", {6, gyroscopicTiltAnswers}},
 };
 
-// Systems that no model of this program stands for, and why.
+// Systems that no model of this program covers, and why.
 const std::map<std::string, std::string> kNotModelled{
     {"routh", "polynomials: tested with the Routh criterion"},
 };

@@ -1,5 +1,5 @@
-// What the models answer to the lecture notes' reference numbers on the causes of whirl: a free
-// spin, fluid friction, hysteresis, gyroscopic tilt.
+// The models against the lecture notes' reference numbers on the causes of whirl: a free spin,
+// fluid friction, hysteresis, gyroscopic tilt.
 #include <Eigen/Core>
 #include <algorithm>
 #include <complex>
@@ -47,7 +47,7 @@ double threshold(double low, double high, const Of& of) {
 
 namespace {
 
-/// X, Y, phi and their rates of the notes, in the frame that turns with the disc.
+/// X, Y, phi and their rates of the notes, in the frame rotating with the disc.
 struct TurningState {
   std::vector<double> q, v;
 };

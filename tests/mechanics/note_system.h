@@ -1,5 +1,5 @@
-// A model of this program with the parameters of a note case, and the questions that the cases of
-// every system ask: accelerations, energies, trajectories, small motion.
+// A model of this program with the parameters of a note case, and the quantities common to the
+// cases of all systems: accelerations, energies, trajectories, linearized motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,7 +46,7 @@ double zeroBetween(double low, double high, const F& f) {
   return low;
 }
 
-/// A word among a model's settings.
+/// A text value among a model's settings.
 inline Settings choice(const std::string& setting, const std::string& value) {
   Settings settings;
   settings.choices[setting] = value;
@@ -74,7 +74,7 @@ class NoteSystem {
   const Dynamics& dynamics() const { return *dynamics_; }
   Eigen::VectorXd holdingForce(const std::vector<double>& q) const {
     const std::vector<double> rest(q.size());
-    return dynamics_->unbalancedForce(vector(q), vector(rest), {});
+    return dynamics_->residualForce(vector(q), vector(rest), {});
   }
   /// About a steady motion with rates v, if given.
   Linearization linearAt(const std::vector<double>& q, std::vector<double> v = {}) const {
@@ -92,7 +92,7 @@ class NoteSystem {
     }
     throw std::invalid_argument("no reaction " + name);
   }
-  /// How far a condition is from being broken there.
+  /// Margin of a condition before it is violated.
   double margin(const std::string& name, const std::vector<double>& q,
                 const std::vector<double>& v) const {
     for (const Condition& c : dynamics_->conditions(vector(q), vector(v), freely(q, v), {})) {

@@ -1,4 +1,4 @@
-// Random parameters and states of every model, in the ranges that machines have.
+// Random parameters and states of every model, in realistic ranges.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ struct RandomState {
   double gravity;  ///< [m/s^2]
   std::shared_ptr<const Dynamics> dynamics;
   Eigen::VectorXd q, v;
-  Moment<double> at;
+  EvaluationPoint<double> at;
 };
 
 /// One that may have a singular mass matrix.
@@ -31,7 +31,7 @@ inline RandomState anyRandomState(const VariantUnderTest& variant, std::mt19937_
   for (const ParameterInfo& p : model.parameters) {
     if (p.name.rfind("motor_", 0) == 0 || p.name.rfind("gear_", 0) == 0 ||
         p.name.rfind("drag", 0) == 0) {
-      s.parameters[p.name] = 0.0;  // unless the form says otherwise
+      s.parameters[p.name] = 0.0;  // unless the form overrides it
       continue;
     }
     // Positive ones over two decades; one in three that may be 0 is.

@@ -353,7 +353,7 @@ TEST(RotorAssembly, hasItsPedestalsBesideTheirNodes) {
   EXPECT_LT((b.byRate().dense() - l.damping - l.gyroscopic).norm(), 1e-12 * l.damping.norm());
 }
 
-// What a film moves along has inertia and no weight.
+// The added mass of a film has inertia and no weight.
 TEST(RotorAssembly, carriesTheMassesOfItsBearings) {
   FlexibleShaft shaft = rigidRotor();
   shaft.gravity = 10.0;

@@ -1,5 +1,5 @@
-// What rotors have beside shaft, discs and bearings, against closed forms: torque, couplings,
-// damping by mode, pedestals over the speed.
+// Rotor elements other than shaft, discs and bearings, against closed forms: torque, couplings,
+// modal damping, speed-dependent pedestals.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -87,7 +87,7 @@ TEST(RotorParts, aTorqueCarriesAForcedEndAside) {
   EXPECT_LT(std::abs(found - wanted), 1e-5 * std::abs(wanted));
 }
 
-// What of a torque is not symmetric acts where it enters and leaves, T/2 between the two turns.
+// The asymmetric part of a torque acts where it enters and leaves, T/2 between the two rotations.
 TEST(RotorParts, aTorqueThatGoesOnTakesNothingFromTheNodesBetween) {
   FlexibleShaft shaft = evenShaft(6, 1.0, 300.0);
   shaft.elements[2].outer_growth = 0.01;  // a cone among them
@@ -102,8 +102,9 @@ TEST(RotorParts, aTorqueThatGoesOnTakesNothingFromTheNodesBetween) {
   EXPECT_LT((n - wanted).norm(), 1e-9 * wanted.norm());
 }
 
-// Nicolai (1928): what enters at a free end feeds an undamped whirl. With M = 1 of its shape the
-// rate is (T/2) |difference of the squares of its slopes where T enters and leaves| / 2 w.
+// Nicolai (1928): a torque that enters at a free end feeds an undamped whirl. With M = 1 of its
+// mode the growth rate is (T/2) |difference of the squares of its slopes where T enters and leaves|
+// / 2 w.
 TEST(RotorParts, aTorqueFeedsAWhirlWhereItEntersAtAFreeEnd) {
   const double torque = 20.0;
   const auto rotor = [](double twist) {

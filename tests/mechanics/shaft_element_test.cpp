@@ -1,4 +1,4 @@
-// The shaft element: what a beam must do, and convergence to the exact whirl of a spinning shaft
+// The shaft element: beam properties, and convergence to the exact whirl of a spinning shaft
 // (reference case D09).
 #include "mechanics/rotors/shaft_element.h"
 

@@ -1,5 +1,5 @@
-// The short journal bearing: reference case E05, the closed form of its film against the pressure
-// summed up, and its coefficients against differences of its force.
+// The short journal bearing: reference case E05, the closed form of its film forces against the
+// integrated pressure, and its coefficients against differences of its force.
 #include "mechanics/rotors/short_journal_bearing.h"
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ TEST(ShortJournalBearing, coefficientsAreDifferencesOfTheForce) {
     return std::pair<double, double>{-(ahead.x - behind.x) / width, -(ahead.y - behind.y) / width};
   };
   // Central differences over 1e-4 of the clearance: errors of 1e-8 times the third derivative, some
-  // tens of the first, and rounding of 1e-12. A velocity of a clearance a turn stands for one.
+  // tens of the first, and rounding of 1e-12. The velocity step is 1e-4 clearances per turn.
   const double tolerance = 1.0e-6 * std::fabs(k.kyx);
   const auto by_x = slope(step, 0.0, 0.0, 0.0);
   const auto by_y = slope(0.0, step, 0.0, 0.0);
@@ -102,8 +102,8 @@ TEST(ShortJournalBearing, forceIsThePressureOfHalfTheFilm) {
                           Motion{0.1 * c, 0.1 * c, 0.0, 0.0, -400.0}}) {
     double fx = 0.0;
     double fy = 0.0;
-    // Midpoints in equal parts of a half circle, whose ends do not matter: p = 0 there. The error
-    // falls with the square of their number.
+    // Midpoint rule on a half circle, whose ends do not matter: p = 0 there. The error falls with
+    // the square of the number of intervals.
     const double start = std::atan2(2.0 * m.vy - m.speed * m.x, 2.0 * m.vx + m.speed * m.y);
     constexpr int kParts = 20000;
     for (int i = 0; i < kParts; ++i) {

@@ -1,4 +1,5 @@
-// The pictures of models agree with their mechanics: what is drawn moves as the energies say.
+// The pictures of models agree with their mechanics: the drawn motion is consistent with the
+// energies.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +21,7 @@ ParameterValues onlyTheTracedMass(ParameterValues parameters) {
 }
 
 Eigen::Vector3d tracer(const Dynamics& dynamics, const RandomState& s, double dt) {
-  const Moment<double> at{s.at.time + dt, s.at.angle + s.at.speed * dt, s.at.speed, 0.0};
+  const EvaluationPoint<double> at{s.at.time + dt, s.at.angle + s.at.speed * dt, s.at.speed, 0.0};
   const SketchPoint p = dynamics.sketch(s.q + dt * s.v, at).tracer;
   return {p.x, p.y, p.z};
 }

@@ -1,4 +1,4 @@
-// Small systems that one looks for by name, against what theory says of their motion.
+// Well-known small systems, against the theory of their motion.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,13 +28,13 @@ RunningSystem::Setup setup(const std::string& model, const ParameterValues& para
   return s;
 }
 
-// Its steps leave the angle out, which they say (kHasShaftAngle).
+// Its steps do not depend on the angle, as declared (kHasShaftAngle).
 TEST(SpinningPendulum, MovesAlikeWhateverTheAngleOfItsShaft) {
   static_assert(!SpinningPendulum::kHasShaftAngle);
   const SpinningPendulum pendulum{1.2, 0.7, 0.05, kGravity};
   const auto motion = [&](double angle) {
     return derivative(pendulum, std::array{0.4}, std::array{-1.3},
-                      Moment<double>{2.0, angle, 5.0, 0.8});
+                      EvaluationPoint<double>{2.0, angle, 5.0, 0.8});
   };
   EXPECT_EQ(motion(std::nan("")).acceleration[0], motion(0.0).acceleration[0]);
   EXPECT_EQ(motion(std::nan("")).power, motion(0.0).power);
@@ -86,7 +86,7 @@ TEST(ElasticPendulum, BouncesAndSwingsWhereItHangs) {
       "elastic_pendulum", {{"mass", m}, {"stiffness", k}, {"free_length", free}}, kGravity);
   const Eigen::VectorXd rest = Eigen::Vector2d(l, 0.0);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(2);
-  EXPECT_LT(pendulum->unbalancedForce(rest, zero, {}).norm(), 1e-13 * m * kGravity);
+  EXPECT_LT(pendulum->residualForce(rest, zero, {}).norm(), 1e-13 * m * kGravity);
   const Linearization about = pendulum->linearization(rest, zero, zero, {});
   EXPECT_NEAR(about.stiffness(0, 0) / about.mass(0, 0), k / m, 1e-12 * k / m);
   EXPECT_NEAR(about.stiffness(1, 1) / about.mass(1, 1), kGravity / l, 1e-12 * kGravity / l);
@@ -113,7 +113,7 @@ TEST(ElasticPendulum, FeedsItsSwingWhereItBouncesTwiceAsFast) {
   EXPECT_LT(largestSwing(2.0), 5e-4);
 }
 
-/// Kapitza's: l = 0.1 m, a = 2 mm, the pivot's speed a Omega in parts of sqrt(2 g l).
+/// Kapitza's: l = 0.1 m, a = 2 mm, the pivot's speed a Omega relative to sqrt(2 g l).
 ParameterValues shaken(double part) {
   const double l = 0.1, a = 0.002;
   return {{"mass", 0.1},
@@ -171,8 +171,7 @@ TEST(KapitzaPendulum, SwaysAboutUprightAsItsMeanMotion) {
   EXPECT_NEAR(bob.q(0) - M_PI, 0.02, 0.02 * 0.05);
 }
 
-/// By how much its plane has turned [rad] when it comes to the end of a swing after `swings` of
-/// them.
+/// Rotation of its plane [rad] at the end of a swing after `swings` of them.
 double turned(double latitude, double rate, double length, double lean, int swings) {
   RunningSystem bob(
       setup("foucault_pendulum",
@@ -181,7 +180,7 @@ double turned(double latitude, double rate, double length, double lean, int swin
       "dormand_prince_8", kMillisecond);
   const double period = 2.0 * M_PI * std::sqrt(length / kGravity);
   EXPECT_EQ(bob.run(std::llround(swings * period / 1e-3)), StepStatus::kOk);
-  // Where the bob stands farthest out, within the next swing.
+  // The position of largest radius within the next swing.
   double far = 0.0, angle = 0.0;
   for (int i = 0; i < std::lround(0.5 * period / 1e-3); ++i) {
     EXPECT_EQ(bob.run(1), StepStatus::kOk);
@@ -205,7 +204,7 @@ TEST(FoucaultPendulum, TurnsItsPlaneByTheSineOfTheLatitude) {
 
 TEST(FoucaultPendulum, OfThePantheonTurnsElevenDegreesAnHour) {
   const double hour = 3600.0 * 180.0 / M_PI;
-  // An hour would be 219 swings; twenty tell the rate.
+  // An hour would be 219 swings; twenty are enough for the rate.
   EXPECT_NEAR(hour * turned(0.8526, 7.292115e-5, 67.0, 0.04, 20), -11.3, 0.05);
 }
 

@@ -1,4 +1,4 @@
-// What the files in msg/ say is what the lists of fields in src/messages say.
+// The files in msg/ agree with the lists of fields in src/messages.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -86,7 +86,7 @@ TEST(MessageFiles, NameEveryTypeOfAlert) {
   for (const Line& line : fieldsOf("Alert")) {
     listed += line.name == "type" ? line.comment : "";
   }
-  std::ifstream header(WHIRL_TWIN_SOURCE "/src/messages/alert_types.h");
+  std::ifstream header(WHIRL_TWIN_SOURCE "/src/messages/alert.h");
   std::string types;
   const std::regex constant(R"(.*\[\] = "([A-Z_]+)\";.*)");
   for (std::string text; std::getline(header, text);) {

@@ -1,4 +1,4 @@
-// Text from files, logs and the network is shown, never obeyed.
+// Text from files, logs and the network is displayed, never interpreted as control characters.
 #include "messages/names.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ TEST(Printable, WhatATerminalObeysIsShownEscaped) {
   EXPECT_EQ(printable("x\x1b[2J\x1b[31mred\nnext\r\t\x7f"),
             R"(x\x1b[2J\x1b[31mred\x0anext\x0d\x09\x7f)");
   EXPECT_EQ(printable(std::string("a\0b", 3)), R"(a\x00b)");
-  // C1, which begin a command like ESC [ does; a mark that turns the rest of a line round.
+  // C1 controls, which begin a command like ESC [ does; a mark that reverses the text direction.
   EXPECT_EQ(printable("a\u009b2Jb"), R"(a\xc2\x9b2Jb)");
   EXPECT_EQ(printable("a\u202eb\u2066c\u2028d"), R"(a\xe2\x80\xaeb\xe2\x81\xa6c\xe2\x80\xa8d)");
 }
@@ -30,9 +30,9 @@ TEST(Printable, WhatIsNoUtf8IsNot) {
 }
 
 TEST(Printable, IsCutBetweenCharacters) {
-  const std::string long_text = std::string(kLongestShown - 1, 'a') + "\u00e9 and more";
-  EXPECT_EQ(printable(long_text), std::string(kLongestShown - 1, 'a') + "...");
-  EXPECT_EQ(printable(std::string(kLongestShown, 'a')), std::string(kLongestShown, 'a'));
+  const std::string long_text = std::string(kMaxShown - 1, 'a') + "\u00e9 and more";
+  EXPECT_EQ(printable(long_text), std::string(kMaxShown - 1, 'a') + "...");
+  EXPECT_EQ(printable(std::string(kMaxShown, 'a')), std::string(kMaxShown, 'a'));
   EXPECT_EQ(printable("abcdef", 3), "abc...");
 }
 

@@ -1,4 +1,4 @@
-// What a sensor says in one unit, in another.
+// Conversion of measured values between units.
 #include "messages/units.h"
 
 #include <gtest/gtest.h>

@@ -45,7 +45,7 @@ class BeamUnderTest {
   /// Tip amplitude of the steady motion at a frequency, of the force there is at a time.
   double steadyTip(double frequency, double time) const {
     const VectorXd zero = VectorXd::Zero(dynamics_.dof());
-    const VectorXd force = dynamics_.unbalancedForce(zero, zero, {time, 0.0, 0.0, 0.0});
+    const VectorXd force = dynamics_.residualForce(zero, zero, {time, 0.0, 0.0, 0.0});
     return force
         .cwiseQuotient(matrices_.stiffness.diagonal() -
                        frequency * frequency * matrices_.mass.diagonal())
@@ -112,7 +112,7 @@ TEST(CantileverBeam, BendsByFL3Over3EIUnderAConstantTipForce) {
   }
   Twin twin(sceneOfBeam(3, "tip_force: 3.0, damping_ratio: 0.5"));
   std::vector<double> record(twin.layout().size);
-  for (int i = 0; i < 2000; ++i) {  // 20 s: e^-78 is left of the slowest mode
+  for (int i = 0; i < 2000; ++i) {  // 20 s: e^-78 of the slowest mode remains
     twin.step();
   }
   twin.write(record.data());
@@ -131,7 +131,8 @@ TEST(CantileverBeam, AnswersTheMotionOfItsClamp) {
   const double peak = 3.14159265358979323846 / 40.0;
   const BeamUnderTest notes(sceneOfBeam(2, "base_motion: 1.0, base_motion_frequency: 20.0", unit));
   EXPECT_NEAR(notes.steadyTip(20.0, peak), -2.14958025947596, 1e-10);
-  // Slowly moved it lags by the inertia of its own mass, a uniform load w = m W^2 Y: w L^4 / 8 EI.
+  // Slow base motion makes it lag by the inertia of its own mass, a uniform load w = m W^2 Y: w L^4
+  // / 8 EI.
   const double slow = 0.01;
   const BeamUnderTest beam(sceneOfBeam(4, "base_motion: 1.0, base_motion_frequency: 0.01", unit));
   const double load = slow * slow / 8.0;

@@ -1,4 +1,4 @@
-// Every model in each of its forms, for tests that hold for all of them.
+// Every model in each of its forms, for tests that apply to all of them.
 #pragma once
 
 #include <cctype>
@@ -15,13 +15,13 @@ namespace whirl_twin {
 
 struct VariantUnderTest {
   std::string model;
-  std::string when;  ///< as the model says it
+  std::string when;  ///< as the model describes it
   Settings settings;
   ParameterValues parameters;    ///< those that choose the form
   std::optional<Motor> motor{};  ///< that turns it
 
-  Surroundings around(double gravity) const {
-    Surroundings all(gravity);
+  ModelContext around(double gravity) const {
+    ModelContext all(gravity);
     all.motor = motor;
     return all;
   }

@@ -1,6 +1,6 @@
-// Rotors that two oil films carry rest where statics and Ocvirk's closed form say: the loads of two
-// bearings follow from the weights by the law of the lever, and each journal's place from its load
-// (Ocvirk, NACA TN 2808, 1952; Childs, Turbomachinery Rotordynamics, 1993).
+// Equilibria of rotors on two oil films agree with statics and Ocvirk's closed form: the loads of
+// two bearings follow from the weights by the law of the lever, and each journal's position from
+// its load (Ocvirk, NACA TN 2808, 1952; Childs, Turbomachinery Rotordynamics, 1993).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -63,7 +63,8 @@ struct DrawnRotor {
   }
 };
 
-/// Of so many elements; the films at these eccentricities, the right one another bearing.
+/// With so many elements; the oil films have these eccentricities, the right one is another
+/// bearing.
 DrawnRotor drawn(std::mt19937& draws, int elements, double left, double right) {
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(draws);
@@ -102,7 +103,7 @@ DrawnRotor drawn(std::mt19937& draws, int elements, double left, double right) {
   return r;
 }
 
-/// Where the built rotor operates, beside the right places of its journals.
+/// The operating point of the built rotor against the right positions of its journals.
 void expectAtRest(const DrawnRotor& right, const std::string& modes, double unbalance) {
   SCOPED_TRACE(fmt::format("e {} and {}, {} rad/s, modes {}, unbalance {}", right.left.eccentricity,
                            right.right.eccentricity, right.speed, modes, unbalance));
@@ -111,7 +112,7 @@ void expectAtRest(const DrawnRotor& right, const std::string& modes, double unba
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(dynamics.dof());
   const auto point = operatingPoint(dynamics, zero, zero, right.speed);
   ASSERT_TRUE(point.has_value());
-  const Moment<double> at{0.0, 0.0, right.speed, 0.0};
+  const EvaluationPoint<double> at{0.0, 0.0, right.speed, 0.0};
   int gaps = 0;
   for (const Condition& gap : dynamics.conditions(point->q, zero, zero, at)) {
     const Film& film =

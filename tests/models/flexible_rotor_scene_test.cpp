@@ -1,4 +1,4 @@
-// Flexible rotors from scene files: what is refused and in what words, and what is built.
+// Flexible rotors from scene files: errors and their texts, and the model that is built.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -40,16 +40,16 @@ ModelSetup setupOf(const std::string& parameters) {
   return findModel(system.model)->setUp(system.parameters, system.settings, scene.gravity);
 }
 
-struct Refusal {
+struct InputError {
   std::string parameters;
-  const char* message;  ///< behind "test.yaml: systems.r.parameters."
+  const char* message;  ///< after "test.yaml: systems.r.parameters."
 };
 
-void PrintTo(const Refusal& refusal, std::ostream* out) {
-  *out << refusal.message;
+void PrintTo(const InputError& inputError, std::ostream* out) {
+  *out << inputError.message;
 }
 
-class RefusedFlexibleRotor : public testing::TestWithParam<Refusal> {};
+class RefusedFlexibleRotor : public testing::TestWithParam<InputError> {};
 
 TEST_P(RefusedFlexibleRotor, IsToldWhatWasExpectedAndWhatFound) {
   try {
@@ -69,98 +69,111 @@ std::string withShaft(const std::string& more) {
 INSTANTIATE_TEST_SUITE_P(
     Parts, RefusedFlexibleRotor,
     testing::Values(
-        Refusal{"youngs_modulus: 2.0e+11, density: 7800, elements: [{length: 0.1, outer_diameter: "
-                "0.05, inner_diameter: 0.06}]",
-                "elements[0].inner_diameter: must be < outer_diameter = 0.05 m, found 0.06"},
-        Refusal{"youngs_modulus: 2.0e+11, density: 7800, elements: [{length: 0.1, outer_diameter: "
-                "0.05, count: 60}, {length: 0.1, outer_diameter: 0.04, count: 41}]",
-                "elements[1].count: must give at most 100 elements in total, found 101"},
-        Refusal{"youngs_modulus: 2.0e+11, density: 7800, elements: [{length: 0, outer_diameter: "
-                "0.05}]",
-                "elements[0].length: must be > 0 m, found 0"},
-        Refusal{withShaft("discs: [{node: 7, mass: 1}]"),
-                "discs[0].node: must be a whole number from 0 to 6, found 7"},
-        Refusal{withShaft("magnets: [{node: 7, ki: 100, ks: 1.0e+5}]"),
-                "magnets[0].node: must be a whole number from 0 to 6, found 7"},
-        Refusal{withShaft("magnets: [{node: 1, ki: 100, ks: 1}, {node: 1, ki: 100, ks: 1}]"),
-                "magnets[1].node: duplicate: node 1 already has one"},
-        Refusal{withShaft("bearings: [{node: 0, kxx: 1}, {node: 2.5, kxx: 1}]"),
-                "bearings[1].node: must be a whole number from 0 to 6, found 2.5"},
-        Refusal{withShaft("unbalances: [{node: 9, magnitude: 1}]"),
-                "unbalances[0].node: must be a whole number from 0 to 6, found 9"},
-        Refusal{withShaft("journal_bearings: [{node: 8, length: 0.03, diameter: 0.1, clearance: "
-                          "1.0e-4, viscosity: 0.1, load: 500}]"),
-                "journal_bearings[0].node: must be a whole number from 0 to 6, found 8"},
-        Refusal{withShaft("probe_node: 12"),
-                "probe_node: must be auto or a whole number from 0 to 6, found 12"},
-        Refusal{withShaft("unbalances: [{node: 1, magnitud: 1, magnitude: 1}]"),
-                "unbalances[0].magnitud: unknown key of unbalances; did you mean 'magnitude'?"}));
+        InputError{
+            "youngs_modulus: 2.0e+11, density: 7800, elements: [{length: 0.1, outer_diameter: "
+            "0.05, inner_diameter: 0.06}]",
+            "elements[0].inner_diameter: must be < outer_diameter = 0.05 m, found 0.06"},
+        InputError{
+            "youngs_modulus: 2.0e+11, density: 7800, elements: [{length: 0.1, outer_diameter: "
+            "0.05, count: 60}, {length: 0.1, outer_diameter: 0.04, count: 41}]",
+            "elements[1].count: must give at most 100 elements in total, found 101"},
+        InputError{"youngs_modulus: 2.0e+11, density: 7800, elements: [{length: 0, outer_diameter: "
+                   "0.05}]",
+                   "elements[0].length: must be > 0 m, found 0"},
+        InputError{withShaft("discs: [{node: 7, mass: 1}]"),
+                   "discs[0].node: must be a whole number from 0 to 6, found 7"},
+        InputError{withShaft("magnets: [{node: 7, ki: 100, ks: 1.0e+5}]"),
+                   "magnets[0].node: must be a whole number from 0 to 6, found 7"},
+        InputError{withShaft("magnets: [{node: 1, ki: 100, ks: 1}, {node: 1, ki: 100, ks: 1}]"),
+                   "magnets[1].node: duplicate: node 1 already has one"},
+        InputError{withShaft("bearings: [{node: 0, kxx: 1}, {node: 2.5, kxx: 1}]"),
+                   "bearings[1].node: must be a whole number from 0 to 6, found 2.5"},
+        InputError{withShaft("unbalances: [{node: 9, magnitude: 1}]"),
+                   "unbalances[0].node: must be a whole number from 0 to 6, found 9"},
+        InputError{withShaft("journal_bearings: [{node: 8, length: 0.03, diameter: 0.1, clearance: "
+                             "1.0e-4, viscosity: 0.1, load: 500}]"),
+                   "journal_bearings[0].node: must be a whole number from 0 to 6, found 8"},
+        InputError{withShaft("probe_node: 12"),
+                   "probe_node: must be auto or a whole number from 0 to 6, found 12"},
+        InputError{
+            withShaft("unbalances: [{node: 1, magnitud: 1, magnitude: 1}]"),
+            "unbalances[0].magnitud: unknown key of unbalances; did you mean 'magnitude'?"}));
 
 INSTANTIATE_TEST_SUITE_P(
     AsItIsBuilt, RefusedFlexibleRotor,
     testing::Values(
-        Refusal{
+        InputError{
             withShaft("shear_modulus: 81.2"),
-            "shear_modulus: must be in Pa, about 8.12e+10 Pa with this youngs_modulus, found 81.2"},
-        Refusal{withShaft("poissons_ratio: 0.6"),
-                "poissons_ratio: must be from 0 to 0.5, found 0.6"},
-        Refusal{withShaft("materials: [{name: bronze, youngs_modulus: 1.1e+11, density: 8800}], "
-                          "sleeves: [{from: 0, to: 1, outer_diameter: 0.06, material: bronse}]"),
-                "sleeves[0].material: must be a name of materials, found 'bronse'; did you mean "
-                "'bronze'?"},
-        Refusal{
+            "shear_modulus: must be from 2.11e+09 to 2.11e+12 Pa, 0.01 to 10 times youngs_modulus "
+            "(usual: 8.12e+10 Pa), found 81.2 Pa"},
+        InputError{withShaft("poissons_ratio: 0.6"),
+                   "poissons_ratio: must be from 0 to 0.5, found 0.6"},
+        InputError{withShaft("materials: [{name: bronze, youngs_modulus: 1.1e+11, density: 8800}], "
+                             "sleeves: [{from: 0, to: 1, outer_diameter: 0.06, material: bronse}]"),
+                   "sleeves[0].material: must be a name of materials, found 'bronse'; did you mean "
+                   "'bronze'?"},
+        InputError{
             withShaft("sleeves: [{from: 0, to: 1, outer_diameter: 0.04}]"),
             "sleeves[0].outer_diameter: must be > 0.05 m, the outer diameter below it, found 0.04"},
-        Refusal{withShaft("sleeves: [{from: 2, to: 2, outer_diameter: 0.06}]"),
-                "sleeves[0].to: must be > from = 2, found 2"},
-        Refusal{withShaft("discs: [{node: 1}]"),
-                "discs[0].mass: missing; in kg, or outer_diameter and width in m"},
-        Refusal{withShaft("discs: [{node: 1, outer_diameter: 0.3}]"),
-                "discs[0].width: must be > 0 m for a disc by its geometry"},
-        Refusal{withShaft("pedestals: [{node: 0, mass: 9, kxx: 1}]"),
-                "pedestals[0].node: must be a node with a bearing, found 0"},
-        Refusal{withShaft("bearings: [{node: 0, kxx: 1}], pedestals: [{node: 0, mass: 0, kxx: 1}]"),
-                "pedestals[0].mass: must be > 0 kg, found 0; a spring without a mass is part of "
-                "the bearing, k1 k2 / (k1 + k2)"},
-        Refusal{withShaft("magnets: [{node: 1, ki: 100, ks: 1}], pedestals: [{node: 1, mass: 9}]"),
-                "pedestals[0].node: must be a node without a magnet, whose force acts between "
-                "shaft and ground, found 1"},
-        Refusal{withShaft("couplings: [{element: 6, lateral_stiffness: 1, bending_stiffness: 1}]"),
-                "couplings[0].element: must be a whole number from 0 to 5, found 6"},
-        Refusal{withShaft("couplings: [{element: 2, lateral_stiffness: 1, bending_stiffness: 1}], "
-                          "sleeves: [{from: 2, to: 3, outer_diameter: 0.06}]"),
-                "sleeves[0]: must sit on a shaft; element 2 is a coupling"},
-        Refusal{withShaft("modal_damping: [{ratio: 0.01}, {ratio: 0.02}]"),
-                "modal_damping[1].frequency: must be > 0 rad/s, the row before, found 0"},
-        Refusal{withShaft("bearings: [{node: 0, kxx: 1, mxx: 1, mxy: 2}]"),
-                "bearings[0].mxy: must give a positive semidefinite mass matrix, mxy^2 <= mxx myy "
-                "= 1 kg^2, found 2"}));
+        InputError{withShaft("sleeves: [{from: 2, to: 2, outer_diameter: 0.06}]"),
+                   "sleeves[0].to: must be > from = 2, found 2"},
+        InputError{withShaft("discs: [{node: 1}]"),
+                   "discs[0].mass: missing; in kg, or outer_diameter and width in m"},
+        InputError{withShaft("discs: [{node: 1, outer_diameter: 0.3}]"),
+                   "discs[0].width: must be > 0 m for a disc by its geometry"},
+        InputError{withShaft("pedestals: [{node: 0, mass: 9, kxx: 1}]"),
+                   "pedestals[0].node: must be a node with a bearing, found 0"},
+        InputError{
+            withShaft("bearings: [{node: 0, kxx: 1}], pedestals: [{node: 0, mass: 0, kxx: 1}]"),
+            "pedestals[0].mass: must be > 0 kg, found 0; a spring without a mass is part of "
+            "the bearing, k1 k2 / (k1 + k2)"},
+        InputError{
+            withShaft("magnets: [{node: 1, ki: 100, ks: 1}], pedestals: [{node: 1, mass: 9}]"),
+            "pedestals[0].node: must be a node without a magnet, whose force acts between "
+            "shaft and ground, found 1"},
+        InputError{
+            withShaft("couplings: [{element: 6, lateral_stiffness: 1, bending_stiffness: 1}]"),
+            "couplings[0].element: must be a whole number from 0 to 5, found 6"},
+        InputError{
+            withShaft("couplings: [{element: 2, lateral_stiffness: 1, bending_stiffness: 1}], "
+                      "sleeves: [{from: 2, to: 3, outer_diameter: 0.06}]"),
+            "sleeves[0]: must sit on a shaft; element 2 is a coupling"},
+        InputError{withShaft("modal_damping: [{ratio: 0.01}, {ratio: 0.02}]"),
+                   "modal_damping[1].frequency: must be > 0 rad/s, the row before, found 0"},
+        InputError{
+            withShaft("bearings: [{node: 0, kxx: 1, mxx: 1, mxy: 2}]"),
+            "bearings[0].mxy: must give a positive semidefinite mass matrix, mxy^2 <= mxx myy "
+            "= 1 kg^2, found 2"}));
 
 INSTANTIATE_TEST_SUITE_P(
     ModesAndTables, RefusedFlexibleRotor,
     testing::Values(
-        Refusal{withShaft("modes: many"),
-                "modes: must be a whole number >= 0 or auto, found 'many'"},
-        Refusal{withShaft("modes: 2.5"), "modes: must be a whole number >= 0 or auto, found 2.5"},
-        Refusal{withShaft("modes: 29"),
-                "modes: must be auto or a whole number from 0 to 28, four per node, found 29"},
-        Refusal{withShaft("bearing_tables: [{bearing: 0, speed: 1}]"),
-                "bearing_tables[0].bearing: needs a row in bearings to refer to"},
-        Refusal{withShaft("bearings: [{node: 0}], bearing_tables: [{bearing: 1, speed: 1}]"),
-                "bearing_tables[0].bearing: must be a whole number from 0 to 0, found 1"},
-        Refusal{withShaft("bearings: [{node: 0}], bearing_tables: [{bearing: 0, speed: 5}, "
-                          "{bearing: 0, speed: 5}]"),
-                "bearing_tables[1].speed: must be > 5 rad/s, the row before of this bearing, found "
-                "5"},
-        Refusal{withShaft("pedestal_tables: [{pedestal: 0, speed: 1}]"),
-                "pedestal_tables[0].pedestal: needs a row in pedestals to refer to"},
-        Refusal{withShaft("bearings: [{node: 0, kxx: 1}], pedestals: [{node: 0, mass: 9, kxx: 1}], "
-                          "pedestal_tables: [{pedestal: 0, speed: 5, kxx: 1}]"),
-                "pedestals[0]: must give its node and mass only: pedestal_tables gives its "
-                "coefficients"},
-        Refusal{withShaft("bearings: [{node: 0, kxx: 3}], bearing_tables: [{bearing: 0, speed: 5, "
-                          "kxx: 1}]"),
-                "bearings[0]: must give its node only: bearing_tables gives its coefficients"}));
+        InputError{withShaft("modes: many"),
+                   "modes: must be a whole number >= 0 or auto, found 'many'"},
+        InputError{withShaft("modes: 2.5"),
+                   "modes: must be a whole number >= 0 or auto, found 2.5"},
+        InputError{withShaft("modes: 29"),
+                   "modes: must be auto or a whole number from 0 to 28, four per node, found 29"},
+        InputError{withShaft("bearing_tables: [{bearing: 0, speed: 1}]"),
+                   "bearing_tables[0].bearing: needs a row in bearings to refer to"},
+        InputError{withShaft("bearings: [{node: 0}], bearing_tables: [{bearing: 1, speed: 1}]"),
+                   "bearing_tables[0].bearing: must be a whole number from 0 to 0, found 1"},
+        InputError{
+            withShaft("bearings: [{node: 0}], bearing_tables: [{bearing: 0, speed: 5}, "
+                      "{bearing: 0, speed: 5}]"),
+            "bearing_tables[1].speed: must be > 5 rad/s, the row before of this bearing, found "
+            "5"},
+        InputError{withShaft("pedestal_tables: [{pedestal: 0, speed: 1}]"),
+                   "pedestal_tables[0].pedestal: needs a row in pedestals to refer to"},
+        InputError{
+            withShaft("bearings: [{node: 0, kxx: 1}], pedestals: [{node: 0, mass: 9, kxx: 1}], "
+                      "pedestal_tables: [{pedestal: 0, speed: 5, kxx: 1}]"),
+            "pedestals[0]: must give its node and mass only: pedestal_tables gives its "
+            "coefficients"},
+        InputError{
+            withShaft("bearings: [{node: 0, kxx: 3}], bearing_tables: [{bearing: 0, speed: 5, "
+                      "kxx: 1}]"),
+            "bearings[0]: must give its node only: bearing_tables gives its coefficients"}));
 
 TEST(FlexibleRotorScene, NeedsElements) {
   try {
@@ -201,13 +214,13 @@ TEST(FlexibleRotorScene, WhatFollowsAnotherGoesAlongWhenThatChanges) {
       withShaft("bearings: [{node: 0, kxx: 1.0e+6}, {node: 6, kxx: 1.0e+6, kyy: 2.0e+6}]")));
   SystemSpec& system = scene.systems[0];
   const ModelInfo& model = *findModel(system.model);
-  Complaints complaints("test.yaml");
-  ASSERT_TRUE(setParameter("bearings[0].kxx", 3.0e6, model, system, complaints));
-  ASSERT_TRUE(setParameter("bearings[1].kxx", 3.0e6, model, system, complaints));
+  Diagnostics diagnostics("test.yaml");
+  ASSERT_TRUE(setParameter("bearings[0].kxx", 3.0e6, model, system, diagnostics));
+  ASSERT_TRUE(setParameter("bearings[1].kxx", 3.0e6, model, system, diagnostics));
   EXPECT_EQ(parameterAt("bearings[0].kyy", model, system), 3.0e6);
   EXPECT_EQ(parameterAt("bearings[1].kyy", model, system), 2.0e6);
-  ASSERT_TRUE(setParameter("bearings[0].kyy", 4.0e6, model, system, complaints));
-  ASSERT_TRUE(setParameter("bearings[0].kxx", 5.0e6, model, system, complaints));
+  ASSERT_TRUE(setParameter("bearings[0].kyy", 4.0e6, model, system, diagnostics));
+  ASSERT_TRUE(setParameter("bearings[0].kxx", 5.0e6, model, system, diagnostics));
   EXPECT_EQ(parameterAt("bearings[0].kyy", model, system), 4.0e6);
 }
 
@@ -225,8 +238,8 @@ TEST(FlexibleRotorScene, HasItsPedestalsBehindTheirNodes) {
   EXPECT_EQ(reduced.note.rfind("8 of 34 modes", 0), 0u) << reduced.note;
 }
 
-// What a scene says of couplings, torque, damping by mode and pedestals over the speed is what
-// tests/mechanics/rotor_parts_test.cpp holds to closed forms.
+// Couplings, torque, modal damping and speed-dependent pedestals read from a scene;
+// tests/mechanics/rotor_parts_test.cpp compares their mechanics with closed forms.
 TEST(FlexibleRotorScene, HasItsCouplingsTorquesAndDampings) {
   const auto with = [](const std::string& more) {
     return setupOf(std::string(kShaft) +
@@ -327,7 +340,7 @@ TEST(FlexibleRotorScene, PublishesTheFirstUnbalanceElseTheFirstDiscElseTheMiddle
   const auto stations = setupOf(rotor).dynamics->stations();
   ASSERT_EQ(stations.size(), 7u);
   EXPECT_EQ(stations[0].position, 0.5);
-  // The mark that phases count from is a parameter of its own, whatever unbalance there is.
+  // The phase reference mark is an independent parameter, whatever unbalance there is.
   EXPECT_EQ(setupOf(rotor + ", unbalances: [{node: 5, magnitude: 1.0e-3, angle: 0.7}]")
                 .dynamics->phaseMark(),
             0.0);
@@ -393,7 +406,7 @@ TEST(FlexibleRotorScene, WhirlsAsItsMatricesSay) {
       (l.stiffness + l.circulatory - w * w * l.mass).cast<std::complex<double>>() +
       std::complex<double>(0.0, w) * (l.damping + l.gyroscopic);
   const Eigen::VectorXcd whirl = ComplexLu(dynamic).solve(rotor.synchronousForce(w));
-  // The slowest mode decays at 0.15 / s: after 200 s nothing of it is left.
+  // The slowest mode decays at 0.15 / s: after 200 s it has vanished.
   constexpr int kSteps = 200000;
   for (int i = 0; i < kSteps; ++i) {
     twin.step();
@@ -416,7 +429,7 @@ TEST(FlexibleRotorScene, IsDrawnWithItsDiscsAndBearings) {
   EXPECT_EQ(sketch.rods[2].radius, 0.025);
   // A steel disc 0.28 m across and 0.07 m wide, on this shaft (32.6 kg; its bore is filled here).
   EXPECT_NEAR(sketch.discs[0].radius, 0.14, 0.005);
-  // What holds it far less than the bearings do is a ring around the shaft that stands still.
+  // A support far softer than the bearings is a seal: a stationary ring around the shaft.
   const ModelSetup sealed = setupOf(
       withShaft("modes: 0, bearings: [{node: 0, kxx: 1.0e+6}, {node: 3, kxx: 5.0e+4}, {node: 6, "
                 "kxx: 1.0e+6}]"));
@@ -457,7 +470,7 @@ TEST(FlexibleRotor, WhirlsAtItsPublishedNodeAsTheHarmonicResponseSays) {
     const std::complex<double> turn = std::polar(1.0, whirl.shaft_angle);
     EXPECT_NEAR(whirl.x, (x * turn).real(), 1.0e-6 * std::abs(x)) << modes;
     EXPECT_NEAR(whirl.y, (y * turn).real(), 1.0e-6 * std::abs(y)) << modes;
-    // The axes take the rates in, where a little of the start is left.
+    // The axes depend on the rates, where a little of the start remains.
     EXPECT_NEAR(whirl.orbit_major, 0.5 * (std::abs(x + i * y) + std::abs(x - i * y)),
                 1.0e-4 * std::abs(x))
         << modes;

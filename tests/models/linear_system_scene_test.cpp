@@ -1,5 +1,5 @@
-// Linear systems from scene files: what is refused and in what words, what is built, and that it
-// moves as its matrices say.
+// Linear systems from scene files: errors and their texts, the model that is built, and its motion
+// according to its matrices.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,16 +20,16 @@ std::string sceneText(const std::string& parameters, const std::string& more = "
 
 constexpr const char* kTwo = "mass: [[2, 0], [0, 1]], stiffness: [[30, -10], [-10, 10]]";
 
-struct Refusal {
+struct InputError {
   const char* parameters;
-  const char* message;  ///< behind "test.yaml: systems.s.parameters."
+  const char* message;  ///< after "test.yaml: systems.s.parameters."
 };
 
-void PrintTo(const Refusal& refusal, std::ostream* out) {
-  *out << refusal.message;
+void PrintTo(const InputError& inputError, std::ostream* out) {
+  *out << inputError.message;
 }
 
-class RefusedLinearSystem : public testing::TestWithParam<Refusal> {};
+class RefusedLinearSystem : public testing::TestWithParam<InputError> {};
 
 TEST_P(RefusedLinearSystem, IsToldWhatWasExpectedAndWhatFound) {
   try {
@@ -45,70 +45,80 @@ TEST_P(RefusedLinearSystem, IsToldWhatWasExpectedAndWhatFound) {
 INSTANTIATE_TEST_SUITE_P(
     Matrices, RefusedLinearSystem,
     testing::Values(
-        Refusal{"mass: [[1, 0]], stiffness: [[1]]", "mass: must be square, found 1 x 2"},
-        Refusal{"mass: [[1, 0], [0, 1]], stiffness: [[1]]",
-                "stiffness: must be 2 x 2 like mass, found 1 x 1"},
-        Refusal{"mass: [[1, 0.5], [0.25, 1]], stiffness: [[1, 0], [0, 1]]",
-                "mass: must be symmetric, found [0][1] = 0.5 and [1][0] = 0.25"},
-        Refusal{"mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], gyroscopic: [[0, 2], [2, 0]]",
-                "gyroscopic: must be skew-symmetric, [0][1] = -[1][0], found [0][1] = 2 and "
-                "[1][0] = 2"},
-        Refusal{"mass: [[1]], stiffness: [[1]], circulatory: [[3]]",
-                "circulatory: must be skew-symmetric, with a zero diagonal, found [0][0] = 3"},
-        Refusal{"mass: [[1, 0], [0, 0]], stiffness: [[1, 0], [0, 1]]",
-                "mass: must be positive definite: a coordinate or combination without mass has no "
-                "independent motion; found [1][1] = 0 kg"},
-        Refusal{"mass: [[1, 1, 0], [1, 1, 0], [0, 0, 1]], stiffness: [[1, 0, 0], [0, 1, 0], [0, 0, "
-                "1]], names: [left, right, top]",
-                "mass: must be positive definite: a coordinate or combination without mass has no "
-                "independent motion; found no mass for a combination of left, right"},
-        Refusal{"mass: [[1, 2], [2, 1]], stiffness: [[1, 0], [0, 1]]",
-                "mass: must be positive definite: a coordinate or combination without mass has no "
-                "independent motion; found negative mass for a combination of q1, q2"},
-        Refusal{"mass: [[1.0e-200]], stiffness: [[1.0e+200]]",
-                "mass: must give accelerations within the range of doubles; those of this "
-                "stiffness, damping or force exceed it"}));
+        InputError{"mass: [[1, 0]], stiffness: [[1]]", "mass: must be square, found 1 x 2"},
+        InputError{"mass: [[1, 0], [0, 1]], stiffness: [[1]]",
+                   "stiffness: must be 2 x 2 like mass, found 1 x 1"},
+        InputError{"mass: [[1, 0.5], [0.25, 1]], stiffness: [[1, 0], [0, 1]]",
+                   "mass: must be symmetric, found [0][1] = 0.5 and [1][0] = 0.25"},
+        InputError{
+            "mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], gyroscopic: [[0, 2], [2, 0]]",
+            "gyroscopic: must be skew-symmetric, [0][1] = -[1][0], found [0][1] = 2 and "
+            "[1][0] = 2"},
+        InputError{"mass: [[1]], stiffness: [[1]], circulatory: [[3]]",
+                   "circulatory: must be skew-symmetric, with a zero diagonal, found [0][0] = 3"},
+        InputError{
+            "mass: [[1, 0], [0, 0]], stiffness: [[1, 0], [0, 1]]",
+            "mass: must be positive definite: a coordinate or combination without mass has no "
+            "independent motion; found [1][1] = 0 kg"},
+        InputError{
+            "mass: [[1, 1, 0], [1, 1, 0], [0, 0, 1]], stiffness: [[1, 0, 0], [0, 1, 0], [0, 0, "
+            "1]], names: [left, right, top]",
+            "mass: must be positive definite: a coordinate or combination without mass has no "
+            "independent motion; found no mass for a combination of left, right"},
+        InputError{
+            "mass: [[1, 2], [2, 1]], stiffness: [[1, 0], [0, 1]]",
+            "mass: must be positive definite: a coordinate or combination without mass has no "
+            "independent motion; found negative mass for a combination of q1, q2"},
+        InputError{"mass: [[1.0e-200]], stiffness: [[1.0e+200]]",
+                   "mass: must give accelerations within the range of doubles; those of this "
+                   "stiffness, damping or force exceed it"}));
 
 INSTANTIATE_TEST_SUITE_P(
     NamesAndForces, RefusedLinearSystem,
     testing::Values(
-        Refusal{"mass: [[1]], stiffness: [[1]], names: [a, b]",
-                "names: must be one name per coordinate, 1 in total, found 2"},
-        Refusal{"mass: [[1]], stiffness: [[1]], names: ['2nd floor']",
-                "names[0]: must have at most 48 letters, digits and _, a letter first, found '2nd "
-                "floor'"},
-        Refusal{
+        InputError{"mass: [[1]], stiffness: [[1]], names: [a, b]",
+                   "names: must be one name per coordinate, 1 in total, found 2"},
+        InputError{
+            "mass: [[1]], stiffness: [[1]], names: ['2nd floor']",
+            "names[0]: must have at most 48 letters, digits and _, a letter first, found '2nd "
+            "floor'"},
+        InputError{
             "mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], names: [x, x]",
             "names[1]: must differ from the names of other coordinates and their rates, found 'x'"},
-        Refusal{"mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], names: [x, x_rate]",
-                "names[1]: must differ from the names of other coordinates and their rates, found "
-                "'x_rate'"},
-        Refusal{
+        InputError{
+            "mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], names: [x, x_rate]",
+            "names[1]: must differ from the names of other coordinates and their rates, found "
+            "'x_rate'"},
+        InputError{
             "mass: [[1]], stiffness: [[1]], names: [floor], force: [{coordinate: flor, "
             "amplitude: 1}]",
             "force[0].coordinate: must be a coordinate of the system, found 'flor'; did you mean "
             "'floor'?"},
-        Refusal{
+        InputError{
             "mass: [[1]], stiffness: [[1]], force: [{coordinate: floor, amplitude: 1}]",
             "force[0].coordinate: must be a coordinate of the system, found 'floor'; there are: "
             "q1"},
-        Refusal{"mass: [[1]], stiffness: [[1]], force: [{coordinate: q1, amplitude: 1, frequency: "
-                "-2}]",
-                "force[0].frequency: must be >= 0 rad/s, found -2"}));
+        InputError{
+            "mass: [[1]], stiffness: [[1]], force: [{coordinate: q1, amplitude: 1, frequency: "
+            "-2}]",
+            "force[0].frequency: must be >= 0 rad/s, found -2"}));
 
 INSTANTIATE_TEST_SUITE_P(
     AssumedModes, RefusedLinearSystem,
     testing::Values(
-        Refusal{"mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], assumed_modes: [[1]]",
-                "assumed_modes: must have 2 rows, one per coordinate, and at most 2 columns, one "
-                "per shape, found 1 x 1"},
-        Refusal{"mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], assumed_modes: [[1, 2], [2, "
-                "4]]",
-                "assumed_modes: must be linearly independent shapes, found 2 of which one is zero "
-                "or a combination of the others"},
-        Refusal{"mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], assumed_modes: [[0], [0]]",
-                "assumed_modes: must be linearly independent shapes, found 1 of which one is zero "
-                "or a combination of the others"}));
+        InputError{
+            "mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], assumed_modes: [[1]]",
+            "assumed_modes: must have 2 rows, one per coordinate, and at most 2 columns, one "
+            "per shape, found 1 x 1"},
+        InputError{
+            "mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], assumed_modes: [[1, 2], [2, "
+            "4]]",
+            "assumed_modes: must be linearly independent shapes, found 2 of which one is zero "
+            "or a combination of the others"},
+        InputError{
+            "mass: [[1, 0], [0, 1]], stiffness: [[1, 0], [0, 1]], assumed_modes: [[0], [0]]",
+            "assumed_modes: must be linearly independent shapes, found 1 of which one is zero "
+            "or a combination of the others"}));
 
 TEST(LinearSystemScene, NeedsAMassAndAStiffness) {
   try {
@@ -189,7 +199,7 @@ TEST(LinearSystemScene, IsReducedToItsAssumedModes) {
   EXPECT_NEAR(l.mass(0, 1), 15.0 / 2.0, 1e-14);
   EXPECT_NEAR(l.stiffness(1, 1), 14.0 / 9.0, 1e-14);
   EXPECT_NEAR(l.stiffness(0, 1), 17.0 / 18.0, 1e-14);
-  const Eigen::VectorXd force = dynamics.unbalancedForce(zero, zero, {});
+  const Eigen::VectorXd force = dynamics.residualForce(zero, zero, {});
   EXPECT_NEAR(force[0], -3.0, 1e-15);
   EXPECT_NEAR(force[1], -6.0, 1e-15);
 }

@@ -1,4 +1,4 @@
-// Models that are not built in: when they are asked for, and which of them are taken.
+// Models that are not built in: when they are requested, and which are accepted.
 #include <gtest/gtest.h>
 
 #include <algorithm>

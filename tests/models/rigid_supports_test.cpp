@@ -1,5 +1,5 @@
-// Rotors that pins and clamps hold, and shafts without mass: critical speeds and forces by the
-// closed forms of beams, and dense solutions with the rows of what is held struck out.
+// Rotors on pins and clamps, and shafts without mass: critical speeds and forces by the closed
+// forms of beams, and dense solutions without the rows of fixed coordinates.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ TEST(MasslessShaft, FromAClampHasTheOverhungDiscsBackwardAndForwardCriticalSpeed
   }
 }
 
-/// [rad/s^2], of K phi = w^2 (M - i G1) phi with the rows of what is held struck out.
+/// [rad/s^2], of K phi = w^2 (M - i G1) phi without the rows of fixed coordinates.
 std::vector<double> struckOut(const FlexibleShaft& shaft, double highest) {
   using Long = std::complex<long double>;
   using LongMatrix = Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic>;

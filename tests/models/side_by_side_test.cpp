@@ -1,7 +1,5 @@
-// Members side by side: each is what its system is by itself, wherever it stands and whatever
-// becomes of its neighbours.
-#include "models/side_by_side.h"
-
+// Batched samples of an ensemble: each equals its system stepped alone, at any position in the
+// batch and whatever the state of its neighbours.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,26 +11,27 @@
 
 #include "../extremes/general_position.h"
 #include "allocation_guard.h"
-#include "integration/member_steps.h"
+#include "integration/batch_runge_kutta.h"
+#include "models/batched_models.h"
 
 namespace whirl_twin {
 namespace side_by_side_test {
 
 constexpr std::int64_t kStep = 1000000;  // ns
 constexpr double kStepSeconds = 1.0e-3;
-constexpr std::size_t kMembers = 40;  // a block and a part of another
+constexpr std::size_t kMembers = 40;  // a full block and part of another
 
-/// Members of one model: setups, and the equations of all of them if they go side by side.
+/// Samples of one model: setups, and their equations if they are batched.
 struct Members {
   std::vector<ModelSetup> setups;
-  std::unique_ptr<MemberEquations> equations;
+  std::unique_ptr<BatchEquations> equations;
 
   explicit Members(std::vector<ModelSetup> all) : setups(std::move(all)) {
     std::vector<const Dynamics*> dynamics;
     for (const ModelSetup& setup : setups) {
       dynamics.push_back(setup.dynamics.get());
     }
-    equations = memberEquations(dynamics);
+    equations = batchEquations(dynamics);
   }
 };
 
@@ -40,7 +39,7 @@ Drive runUp() {
   return Drive(5.0, 0.3, {{9.0, 20.0, 700.0, 0.05}, {4.0, 50.0, 0.0, 0.0}});
 }
 
-TEST(MembersSideBySide, AreWhatTheirSystemsAreByThemselves) {
+TEST(BatchedMembers, AreWhatTheirSystemsAreByThemselves) {
   std::set<std::string> together;
   for (const MovingVariant& moving : everyMovingVariant()) {
     const RungeKuttaTable* const method = rungeKuttaTable(moving.integrator);
@@ -65,7 +64,7 @@ TEST(MembersSideBySide, AreWhatTheirSystemsAreByThemselves) {
       continue;
     }
     together.insert(testName(moving.variant));
-    MemberSteps steps(std::move(members.equations), *method, kStepSeconds, 2);
+    BatchRungeKutta steps(std::move(members.equations), *method, kStepSeconds, 2);
     Drive drive = runUp();
     std::vector<std::unique_ptr<Stepper>> alone;
     for (std::size_t i = 0; i < kMembers; ++i) {
@@ -100,7 +99,8 @@ TEST(MembersSideBySide, AreWhatTheirSystemsAreByThemselves) {
   EXPECT_GE(together.size(), 10u) << "many models go side by side";
 }
 
-/// Double pendulums: the even ones alike, the odd ones each another, and started as told.
+/// Double pendulums: those with even index identical, those with odd index all different, with the
+/// given start.
 struct Pendulums {
   explicit Pendulums(double odd_rate, double friction = 0.0)
       : members(setups(friction)), steps(std::move(members.equations), *method(), kStepSeconds, 1) {
@@ -142,17 +142,17 @@ struct Pendulums {
                                  {"drag2", 0.0},
                                  {"drag_reach1", 1.0},
                                  {"drag_reach2", 0.5}},
-                                {}, Surroundings(9.81)));
+                                {}, ModelContext(9.81)));
     }
     return all;
   }
 
   Members members;
-  MemberSteps steps;
+  BatchRungeKutta steps;
   Drive drive{0.0, 0.0};
 };
 
-TEST(MembersSideBySide, ThatAreAlikeKeepTheSameBitsWhereverTheyStand) {
+TEST(BatchedMembers, ThatAreAlikeKeepTheSameBitsWhereverTheyStand) {
   Pendulums pendulums(0.3);
   pendulums.run(2000);
   for (std::size_t i = 0; i < kMembers; i += 2) {
@@ -165,8 +165,8 @@ TEST(MembersSideBySide, ThatAreAlikeKeepTheSameBitsWhereverTheyStand) {
   }
 }
 
-// The last one, whose numbers fill the rest of its block, is among those that run away.
-TEST(MembersSideBySide, AreNotDisturbedByOnesThatRunAway) {
+// The last one, whose values pad its block, is among those that diverge.
+TEST(BatchedMembers, AreNotDisturbedByOnesThatRunAway) {
   Pendulums calm(0.3);
   Pendulums wild(1e200);
   calm.run(500);
@@ -184,9 +184,9 @@ TEST(MembersSideBySide, AreNotDisturbedByOnesThatRunAway) {
   EXPECT_FALSE(wild.steps.stopped(1)) << "started anew";
 }
 
-// Arms that have been turning for minutes. A double holds 1e5 rad to 1.5e-11 rad, and each stage of
-// either rounds its angles to that: by so much they differ, and by what the motion makes of it.
-TEST(MembersSideBySide, KeepTheirDigitsAtLargeAngles) {
+// Arms that have been rotating for minutes. A double resolves 1e5 rad to 1.5e-11 rad, and each
+// stage of either rounds its angles to that: the difference is this, amplified by the motion.
+TEST(BatchedMembers, KeepTheirDigitsAtLargeAngles) {
   for (const double turned : {1e3, -1e4, 1e5, 3e6}) {
     Pendulums together(0.3);
     std::vector<std::unique_ptr<Stepper>> alone;
@@ -214,8 +214,8 @@ TEST(MembersSideBySide, KeepTheirDigitsAtLargeAngles) {
   }
 }
 
-// Friction of one member is a term of zero in the others' equations.
-TEST(MembersSideBySide, HaveTheFrictionOfTheirOwn) {
+// Friction of one sample is a zero term in the equations of the others.
+TEST(BatchedMembers, HaveTheFrictionOfTheirOwn) {
   Pendulums without(0.3);
   Pendulums with(0.3, 0.5);
   without.run(300);
@@ -226,7 +226,7 @@ TEST(MembersSideBySide, HaveTheFrictionOfTheirOwn) {
   EXPECT_GT(std::fabs(with.steps.q(kMembers - 1, 0) - without.steps.q(kMembers - 1, 0)), 1e-3);
 }
 
-TEST(MembersSideBySide, StepWithoutAllocating) {
+TEST(BatchedMembers, StepWithoutAllocating) {
   Pendulums pendulums(1e200);
   const AllocationGuard guard;
   pendulums.run(100);

@@ -128,7 +128,7 @@ TEST(AlarmCommands, AnInhibitionIsAnAlertUntilItEnds) {
   EXPECT_EQ(ends, 2u);
 }
 
-// A reset of the simulation clears alerts, and an inhibition goes on: it is raised again.
+// A reset of the simulation clears alerts, and an inhibition continues: it is raised again.
 TEST(AlarmCommands, AnInhibitionIsStillThereAfterAReset) {
   Commanded twin;
   twin.tell(0.1e-3, 0.4);
@@ -157,27 +157,27 @@ TEST(AlarmCommands, AnInhibitionEndsWithItsMonitor) {
 TEST(AlarmCommands, RefuseWhatCannotBeMeantAndDoNothingOfIt) {
   Commanded twin;
   twin.tell(2.0e-3, 0.4);
-  const auto refusal = [&](const CommandAnswer& answer) {
+  const auto inputError = [&](const CommandAnswer& answer) {
     EXPECT_FALSE(answer.done);
     return answer.text;
   };
-  EXPECT_EQ(refusal(twin.command(kAcknowledge, "roter")),
+  EXPECT_EQ(inputError(twin.command(kAcknowledge, "roter")),
             "system: must be a system of the scene, found 'roter'; did you mean 'rotor'?");
-  EXPECT_EQ(refusal(twin.command(kAcknowledge, "rotor", "UNSTABEL")),
+  EXPECT_EQ(inputError(twin.command(kAcknowledge, "rotor", "UNSTABEL")),
             "type: must be a type of alert, found 'UNSTABEL'; did you mean 'UNSTABLE'?");
-  EXPECT_EQ(refusal(twin.command(kAcknowledge, "rotor", "UNSTABLE")),
+  EXPECT_EQ(inputError(twin.command(kAcknowledge, "rotor", "UNSTABLE")),
             "no active alert UNSTABLE of rotor");
-  EXPECT_EQ(refusal(twin.command(kAcknowledge, "", "", 5.0)),
+  EXPECT_EQ(inputError(twin.command(kAcknowledge, "", "", 5.0)),
             "duration: must be 0 except for command 3 (inhibit), found 5");
-  EXPECT_EQ(refusal(twin.command(kReset, "rotor")),
+  EXPECT_EQ(inputError(twin.command(kReset, "rotor")),
             "system: must be empty, since command 2 resets all alarms, found rotor");
-  EXPECT_EQ(refusal(twin.command(kInhibit, "rotor", "UNSTABLE", 5.0)),
+  EXPECT_EQ(inputError(twin.command(kInhibit, "rotor", "UNSTABLE", 5.0)),
             "type: must be empty except for command 1 (acknowledge), found UNSTABLE");
-  EXPECT_EQ(refusal(twin.command(kInhibit, "", "", 3601.0)),
+  EXPECT_EQ(inputError(twin.command(kInhibit, "", "", 3601.0)),
             "duration: must be from 0 to 3600 s, found 3601");
-  EXPECT_EQ(refusal(twin.command(kInhibit, "", "", std::numeric_limits<double>::quiet_NaN())),
+  EXPECT_EQ(inputError(twin.command(kInhibit, "", "", std::numeric_limits<double>::quiet_NaN())),
             "duration: must be from 0 to 3600 s, found nan");
-  EXPECT_EQ(refusal(twin.command(0)), "command: must be 1, 2 or 3, found 0");
+  EXPECT_EQ(inputError(twin.command(0)), "command: must be 1, 2 or 3, found 0");
   EXPECT_FALSE(twin.alertOf("rotor")->acknowledged);
   EXPECT_EQ(twin.monitor.status(twin.time, false).inhibited, (std::vector<double>{0.0, 0.0}));
 }

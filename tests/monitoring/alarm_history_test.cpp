@@ -1,5 +1,5 @@
-// The history of the alarms outlives the monitor: what was there is there, ids go on, what has gone
-// meanwhile clears, and a file that cannot be written or read stops nothing.
+// The history of the alarms survives the monitor: alarms and ids are restored, causes that have
+// ended meanwhile clear, and a file that cannot be written or read stops nothing.
 #include "monitoring/alarm_history.h"
 
 #include <gtest/gtest.h>

@@ -1,12 +1,11 @@
 // Levels of whirl, over the speed, with their delays; trip multiply while a shaft starts up.
-#include "monitoring/amplitude_alarm.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "messages/alert.h"
+#include "monitoring/vibration_alarms.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {
@@ -20,9 +19,9 @@ AlarmSettings levels(double alert, double danger) {
   return settings;
 }
 
-/// An alarm that is told one radius [m] for a while.
-struct Told {
-  explicit Told(const AlarmSettings& settings) : alarm("rotor", settings) {}
+/// An alarm that receives one radius [m] for a while.
+struct Published {
+  explicit Published(const AlarmSettings& settings) : alarm("rotor", settings) {}
   void tell(double radius, double duration, double speed = 100.0, double acceleration = 0.0) {
     for (const double end = time + duration; time < end - 1.0e-9; time += 0.01) {
       alarm.update(time, radius, speed, acceleration, alerts);
@@ -36,7 +35,7 @@ struct Told {
 };
 
 TEST(AmplitudeAlarm, WarnsAboveAlertIsDangerAboveDangerAndClearsBelowBoth) {
-  Told told(levels(1.0e-3, 2.0e-3));
+  Published told(levels(1.0e-3, 2.0e-3));
   told.tell(0.99e-3, 1.0);
   EXPECT_EQ(told.alert(), nullptr);
   told.tell(1.01e-3, 0.02);
@@ -60,7 +59,7 @@ TEST(AmplitudeAlarm, WarnsAboveAlertIsDangerAboveDangerAndClearsBelowBoth) {
 }
 
 TEST(AmplitudeAlarm, HasNoLevelsIfNothingIsSaid) {
-  Told told((AlarmSettings()));
+  Published told((AlarmSettings()));
   told.tell(1.0, 2.0);
   EXPECT_EQ(told.alert(), nullptr);
 }
@@ -68,7 +67,7 @@ TEST(AmplitudeAlarm, HasNoLevelsIfNothingIsSaid) {
 TEST(AmplitudeAlarm, WaitsForItsSetDelayWithoutABreak) {
   AlarmSettings settings = levels(1.0e-3, 2.0e-3);
   settings.delays[alert_type::kWhirlAmplitude] = {0.5, 2.0};
-  Told told(settings);
+  Published told(settings);
   for (int i = 0; i < 5; ++i) {
     told.tell(3.0e-3, 0.4);
     told.tell(0.5e-3, 0.05);
@@ -94,7 +93,7 @@ TEST(AmplitudeAlarm, LevelsAreLinearBetweenSpeedsAndHeldBeyond) {
 TEST(AmplitudeAlarm, LevelsAreMultipliedWhileTheShaftGainsSpeedAndASecondAfter) {
   AlarmSettings settings = levels(1.0e-3, 2.0e-3);
   settings.trip_multiply = 3.0;
-  Told told(settings);
+  Published told(settings);
   told.tell(2.5e-3, 1.0, 100.0, 10.0);
   EXPECT_EQ(told.alert(), nullptr) << "it starts up";
   told.tell(2.5e-3, 0.9, 100.0, 0.0);
@@ -103,13 +102,13 @@ TEST(AmplitudeAlarm, LevelsAreMultipliedWhileTheShaftGainsSpeedAndASecondAfter) 
   ASSERT_NE(told.alert(), nullptr);
   EXPECT_EQ(told.alert()->severity, state::Severity::kDanger);
 
-  Told slowing(settings);
+  Published slowing(settings);
   slowing.tell(2.5e-3, 0.1, 100.0, -10.0);
   EXPECT_NE(slowing.alert(), nullptr) << "a shaft that runs down is protected as ever";
-  Told backward(settings);
+  Published backward(settings);
   backward.tell(2.5e-3, 0.1, -100.0, -10.0);
   EXPECT_EQ(backward.alert(), nullptr) << "it gains speed the other way round";
-  Told large(settings);
+  Published large(settings);
   large.tell(6.5e-3, 0.1, 100.0, 10.0);
   EXPECT_NE(large.alert(), nullptr) << "never blind";
 }

@@ -1,9 +1,8 @@
-// A controller in another process that does not answer, as the twin tells it.
-#include "monitoring/controller_alarm.h"
-
+// A controller in another process that does not answer, as the twin publishes it.
 #include <gtest/gtest.h>
 
 #include "messages/alert.h"
+#include "monitoring/controller_alarms.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {
@@ -11,15 +10,21 @@ namespace controller_alarm_test {
 
 TEST(ControllerAlarm, NamesWhatIsLostAndClearsWhenItAnswersAgain) {
   AlertList list;
-  ControllerAlarm alarm("pd", AlarmSettings{});
-  alarm.update(0.0, false, list);
+  ControllerAlarms alarm(controllerNamed("pd"), AlarmSettings{});
+  const auto update = [&](double time, bool lost) {
+    state::ControllerState state;
+    state.at.time = time;
+    state.lost = lost;
+    alarm.update(state, list);
+  };
+  update(0.0, false);
   EXPECT_TRUE(list.active().empty());
-  alarm.update(0.1, true, list);
+  update(0.1, true);
   ASSERT_NE(list.find("pd", alert_type::kControllerLost), nullptr);
   EXPECT_EQ(list.active()[0].severity, state::Severity::kDanger);
   EXPECT_NE(list.active()[0].text.find("pd"), std::string::npos);
-  alarm.update(0.2, false, list);
-  alarm.update(2.0, false, list);
+  update(0.2, false);
+  update(2.0, false);
   EXPECT_TRUE(list.active().empty());
 }
 

@@ -1,6 +1,5 @@
 // What a protection engineer expects of the critical-speed alerts of one rotor.
-#include "monitoring/critical_speed_alarm.h"
-
+#include "monitoring/resonance_alarms.h"
 #include "watched_rotor.h"
 
 namespace whirl_twin {

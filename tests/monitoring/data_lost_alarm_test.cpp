@@ -1,9 +1,8 @@
-// A system that falls silent while others go on. Wall time is a number here: nothing waits.
-#include "monitoring/data_lost_alarm.h"
-
+// No messages from one system while others are received. Wall time is simulated: nothing waits.
 #include <gtest/gtest.h>
 
 #include "messages/alert.h"
+#include "monitoring/data_alarms.h"
 
 namespace whirl_twin {
 namespace data_lost_alarm_test {
@@ -22,7 +21,7 @@ class DataLostAlarmTest : public testing::Test {
     return list_.find(system, alert_type::kDataLost) != nullptr;
   }
 
-  // A system that comes back is believed sooner than one that is silent is given up.
+  // The clear delay is shorter than the timeout.
   static AlarmSettings settings() {
     AlarmSettings settings;
     settings.data_timeout = 1.0;

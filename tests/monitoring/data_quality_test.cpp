@@ -1,5 +1,5 @@
-// Not-OK: what cannot be judged is said, apart from the alarms, raises none and clears none, and
-// is no time without a cause.
+// Data quality: bad data are reported beside the alarms, raise none and clear none, and break no
+// delay.
 #include "monitoring/data_quality.h"
 
 #include <gtest/gtest.h>
@@ -32,9 +32,9 @@ AlarmSettings levels() {
   return settings;
 }
 
-/// A monitor that is told a whirl [m] for a while.
-struct Told {
-  Told() : monitor(build(sceneOf(kCalm)), levels()) {}
+/// A monitor that receives a whirl [m] for a while.
+struct Published {
+  Published() : monitor(build(sceneOf(kCalm)), levels()) {}
   void tell(double radius, double duration) {
     tell([=](double t) { return circularWhirl("", t, radius, 50.0).x; },
          [=](double t) { return circularWhirl("", t, radius, 50.0).y; }, duration);
@@ -58,7 +58,7 @@ struct Told {
 };
 
 TEST(DataQuality, WhatIsNotFiniteClearsNothingAndBreaksTheClearDelay) {
-  Told told;
+  Published told;
   EXPECT_EQ(told.notOk(), "stale: no state received yet");
   told.tell(2.0e-3, 0.5);
   EXPECT_EQ(told.notOk(), "");
@@ -75,7 +75,7 @@ TEST(DataQuality, WhatIsNotFiniteClearsNothingAndBreaksTheClearDelay) {
 }
 
 TEST(DataQuality, BeyondItsRangeAWhirlIsNoMeasurement) {
-  Told told;
+  Published told;
   told.tell(0.1e-3, 0.5);
   told.tell(9.0e-3, 2.0);
   EXPECT_FALSE(told.raised());
@@ -87,7 +87,7 @@ TEST(DataQuality, BeyondItsRangeAWhirlIsNoMeasurement) {
 }
 
 TEST(DataQuality, AGapIsNoTimeWithoutTheCause) {
-  Told told;
+  Published told;
   told.tell(2.0e-3, 0.5);
   told.tell(0.1e-3, 0.9);
   for (const double end = told.time + 5.0; told.time < end; told.time += 0.1) {
@@ -110,7 +110,7 @@ double whirlY(double time) {
 }
 
 TEST(StuckChannel, IsNotOkRaisesAndClearsNothingAndComesBack) {
-  Told told;
+  Published told;
   told.tell([](double t) { return 7.0 * whirlX(t); }, whirlY, 1.0);
   ASSERT_TRUE(told.raised());
   const double held = 0.3e-3;  // below the level
@@ -150,7 +150,7 @@ TEST(StuckChannel, IsNotWhatComesToRestOrIsCoarse) {
                  [=](double t) { return coarse(4.0 * std::exp(-2.0 * t) * whirlX(t)); }},
            Trial{"moves in jumps", [](double t) { return 1.0e-4 * std::floor(2.0 * t); }},
        }) {
-    Told told;
+    Published told;
     for (int i = 0; i < 400; ++i) {
       told.tell(trial.x, whirlY, 0.05);
       ASSERT_EQ(told.notOk(), "") << trial.what << ", t = " << told.time;
@@ -159,7 +159,7 @@ TEST(StuckChannel, IsNotWhatComesToRestOrIsCoarse) {
 }
 
 TEST(StuckChannel, IsNotWhatStandsStillSinceAGapOrAReset) {
-  Told told;
+  Published told;
   told.tell(whirlX, whirlY, 1.0);
   told.time += 0.5;  // nothing came meanwhile, and the machine has come to rest
   told.tell(0.05e-3, 2.0);

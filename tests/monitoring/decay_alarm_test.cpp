@@ -1,6 +1,4 @@
 // The model's decay rate beside that of the ambient vibration.
-#include "monitoring/decay_alarm.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <random>
 
 #include "messages/alert.h"
+#include "monitoring/model_alarms.h"
 
 namespace whirl_twin {
 namespace decay_alarm_test {

@@ -151,9 +151,9 @@ TEST(EquilibriumStart, ARotorInFilmsStartsWhereNothingPullsItOn) {
       const Dynamics& dynamics = *rotor.setup->made.dynamics;
       const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(rotor.q.data(), n);
       const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
-      const Moment<double> at{0.0, 0.0, speed, 0.0};
-      EXPECT_LT(dynamics.unbalancedForce(q, zero, at).norm(),
-                1.0e-8 * dynamics.unbalancedForce(zero, zero, at).norm());
+      const EvaluationPoint<double> at{0.0, 0.0, speed, 0.0};
+      EXPECT_LT(dynamics.residualForce(q, zero, at).norm(),
+                1.0e-8 * dynamics.residualForce(zero, zero, at).norm());
     }
   }
 }

@@ -37,45 +37,46 @@ class Failing final : public Dynamics {
   std::string singularMass() const override { return ""; }
   std::vector<Station> stations() const override { return system_->stations(); }
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override {
+                               const EvaluationPoint<double>& at) const override {
     return system_->acceleration(q, v, at);
   }
-  Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                  const Moment<double>& at) const override {
-    return system_->unbalancedForce(q, v, at);
+  Eigen::VectorXd residualForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                const EvaluationPoint<double>& at) const override {
+    return system_->residualForce(q, v, at);
   }
   Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                               const Moment<double>& at) const override {
+                               const EvaluationPoint<double>& at) const override {
     return system_->appliedForce(q, v, at);
   }
   Eigen::MatrixXd massMatrix(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                             const Moment<double>& at) const override {
+                             const EvaluationPoint<double>& at) const override {
     return system_->massMatrix(q, v, at);
   }
   Eigen::VectorXd momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                          const Moment<double>& at) const override {
+                          const EvaluationPoint<double>& at) const override {
     return system_->momenta(q, v, at);
   }
   Energies energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                    const Moment<double>& at) const override {
+                    const EvaluationPoint<double>& at) const override {
     return system_->energies(q, v, at);
   }
   Linearization linearization(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                              const Eigen::VectorXd& a, const Moment<double>& at) const override {
+                              const Eigen::VectorXd& a,
+                              const EvaluationPoint<double>& at) const override {
     happens_();
     return system_->linearization(q, v, a, at);
   }
   std::vector<Reaction> reactions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                   const Eigen::VectorXd& a,
-                                  const Moment<double>& at) const override {
+                                  const EvaluationPoint<double>& at) const override {
     return system_->reactions(q, v, a, at);
   }
   std::vector<Condition> conditions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                     const Eigen::VectorXd& a,
-                                    const Moment<double>& at) const override {
+                                    const EvaluationPoint<double>& at) const override {
     return system_->conditions(q, v, a, at);
   }
-  Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const override {
+  Sketch sketch(const Eigen::VectorXd& q, const EvaluationPoint<double>& at) const override {
     return system_->sketch(q, at);
   }
 
@@ -106,11 +107,11 @@ systems:
   pendulum: {model: pendulum, parameters: {mass: 1.0, length: 0.5, damping: 0.3}}
 )";
 
-Judgement lastOf(Judging& judging) {
-  Judgement last;
-  while (judging.pending()) {
-    for (Judgement& judgement : judging.take()) {
-      last = std::move(judgement);
+StabilityResult lastOf(EvaluationQueue& queue) {
+  StabilityResult last;
+  while (queue.pending()) {
+    for (StabilityResult& result : queue.take()) {
+      last = std::move(result);
     }
     std::this_thread::yield();
   }
@@ -121,22 +122,23 @@ TEST(AFailingEvaluation, IsUncertainWithItsReasonAndTheOthersAreJudged) {
   const BuiltScene scene = build(sceneOf(kDanger));
   const SharedSystem rotor =
       failing(scene.systems[0], [] { throw std::runtime_error("no convergence"); });
-  for (const Judging::Mode mode : {Judging::Mode::kAtOnce, Judging::Mode::kBeside}) {
-    Judging judging({rotor, scene.systems[1]}, mode);
-    judging.ask({0, rotor, {1, 0.001, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
-    const Judgement uncertain = lastOf(judging);
+  for (const EvaluationQueue::Mode mode :
+       {EvaluationQueue::Mode::kAtOnce, EvaluationQueue::Mode::kConcurrent}) {
+    EvaluationQueue queue({rotor, scene.systems[1]}, mode);
+    queue.add({0, rotor, {1, 0.001, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+    const StabilityResult uncertain = lastOf(queue);
     EXPECT_EQ(uncertain.failure, "no convergence");
     EXPECT_EQ(uncertain.margin.verdict_name, "uncertain");
     EXPECT_EQ(uncertain.margin.system, "rotor");
-    judging.ask({1, scene.systems[1], {1, 0.001, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
-    const Judgement judged = lastOf(judging);
+    queue.add({1, scene.systems[1], {1, 0.001, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+    const StabilityResult judged = lastOf(queue);
     EXPECT_EQ(judged.failure, "");
     EXPECT_EQ(judged.margin.verdict_name, "unstable");
     ASSERT_TRUE(judged.speeds);
     EXPECT_NEAR(judged.speeds->thresholds.lowest(), 40.0, 1.0e-6);
     // With other parameters it is evaluated again.
-    judging.ask({0, scene.systems[0], {2, 0.002, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
-    EXPECT_EQ(lastOf(judging).margin.verdict_name, "asymptotically_stable");
+    queue.add({0, scene.systems[0], {2, 0.002, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+    EXPECT_EQ(lastOf(queue).margin.verdict_name, "asymptotically_stable");
   }
 }
 
@@ -152,24 +154,24 @@ TEST(AnEvaluationThatTakesTooLong, IsUncertainAndTheOthersAreJudgedInTime) {
   const SharedSystem slow = failing(scene.systems[0], [ended] { ended.wait(); });
   const auto begin = std::chrono::steady_clock::now();
   {
-    Judging judging({slow, scene.systems[1]}, Judging::Mode::kBeside);
-    EXPECT_LT(secondsSince(begin), kLongestEvaluation + 1.0);  // it does not wait for the speeds
-    Judgement uncertain;
+    EvaluationQueue queue({slow, scene.systems[1]}, EvaluationQueue::Mode::kConcurrent);
+    EXPECT_LT(secondsSince(begin), kMaxEvaluation + 1.0);  // it does not wait for the speeds
+    StabilityResult uncertain;
     double longest_wait = 0.0;
     std::int64_t step = 0;
-    while (uncertain.failure.empty() && secondsSince(begin) < 3.0 * kLongestEvaluation) {
+    while (uncertain.failure.empty() && secondsSince(begin) < 3.0 * kMaxEvaluation) {
       ++step;
-      judging.ask({0, slow, {step, 0.1, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
-      judging.ask({1, scene.systems[1], {step, 0.1, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+      queue.add({0, slow, {step, 0.1, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+      queue.add({1, scene.systems[1], {step, 0.1, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
       const auto asked = std::chrono::steady_clock::now();
       bool answered = false;
       while (!answered && secondsSince(asked) < 3.0) {
-        for (Judgement& judgement : judging.take()) {
-          answered = answered || (judgement.system == 1 && judgement.margin.at.step == step);
-          if (judgement.system == 0) {
-            uncertain = std::move(judgement);
+        for (StabilityResult& result : queue.take()) {
+          answered = answered || (result.request.system == 1 && result.margin.at.step == step);
+          if (result.request.system == 0) {
+            uncertain = std::move(result);
           } else {
-            EXPECT_EQ(judgement.margin.verdict_name, "unstable");
+            EXPECT_EQ(result.margin.verdict_name, "unstable");
           }
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -180,10 +182,10 @@ TEST(AnEvaluationThatTakesTooLong, IsUncertainAndTheOthersAreJudgedInTime) {
     EXPECT_EQ(uncertain.margin.verdict_name, "uncertain");
     EXPECT_LT(longest_wait, 1.0);  // 0.2 s, and what a busy machine takes
     // Parameters that can be evaluated are, though the others are still being.
-    judging.ask({0, scene.systems[0], {1, 0.2, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
-    EXPECT_EQ(lastOf(judging).margin.verdict_name, "asymptotically_stable");
+    queue.add({0, scene.systems[0], {1, 0.2, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+    EXPECT_EQ(lastOf(queue).margin.verdict_name, "asymptotically_stable");
   }
-  EXPECT_LT(secondsSince(begin), 4.0 * kLongestEvaluation);  // nobody has waited for it
+  EXPECT_LT(secondsSince(begin), 4.0 * kMaxEvaluation);  // nobody has waited for it
   end.set_value();
 }
 

@@ -1,6 +1,4 @@
 // What a follower says of its machine becomes alerts that name the cause, and go with it.
-#include "monitoring/following_alarm.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <string>
 
 #include "messages/alert.h"
+#include "monitoring/model_alarms.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {
@@ -43,8 +42,8 @@ state::FollowState wellFollowed() {
   return follow;
 }
 
-struct Told {
-  explicit Told(bool has_shaft = true, const AlarmSettings& settings = {})
+struct Published {
+  explicit Published(bool has_shaft = true, const AlarmSettings& settings = {})
       : alarm("rotor", has_shaft, settings) {}
   void tell(double duration, bool mismatch_told = false) {
     for (const double end = follow.at.time + duration; follow.at.time < end - 1e-9;
@@ -58,7 +57,7 @@ struct Told {
     return alert == nullptr ? "" : alert->text;
   }
 
-  FollowingAlarm alarm;
+  EstimatorAlarm alarm;
   AlertList alerts;
   state::FollowState follow = wellFollowed();
 };
@@ -67,15 +66,15 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(FollowingAlarm, IsSilentOfAMachineThatIsItsModel) {
-  Told told;
+TEST(EstimatorAlarm, IsSilentOfAMachineThatIsItsModel) {
+  Published told;
   told.tell(60.0);
   EXPECT_TRUE(told.alerts.active().empty());
 }
 
-TEST(FollowingAlarm, ResidualsBeyondEitherLimitAreAMismatch) {
+TEST(EstimatorAlarm, ResidualsBeyondEitherLimitAreAMismatch) {
   for (const double mismatch : {1.2, 0.8}) {
-    Told told;
+    Published told;
     told.follow.mismatch = mismatch;
     told.tell(0.1);
     ASSERT_NE(told.find(alert_type::kModelMismatch), nullptr) << mismatch;
@@ -96,17 +95,17 @@ TEST(FollowingAlarm, ResidualsBeyondEitherLimitAreAMismatch) {
   }
 }
 
-TEST(FollowingAlarm, ResidualsThatLastAreAMismatchOfEitherSign) {
+TEST(EstimatorAlarm, ResidualsThatLastAreAMismatchOfEitherSign) {
   for (const double whiteness : {0.3, -0.3}) {
-    Told told;
+    Published told;
     told.follow.whiteness = whiteness;
     told.tell(0.1);
     EXPECT_TRUE(has(told.text(alert_type::kModelMismatch), "autocorrelation of the innovations"));
   }
 }
 
-TEST(FollowingAlarm, BeforeAWindowHasEndedThereIsNoMismatch) {
-  Told told;
+TEST(EstimatorAlarm, BeforeAWindowHasEndedThereIsNoMismatch) {
+  Published told;
   told.follow.mismatch = 3.0;
   told.follow.mismatch_least = told.follow.mismatch_limit = kNone;
   told.follow.whiteness_limit = kNone;
@@ -114,20 +113,20 @@ TEST(FollowingAlarm, BeforeAWindowHasEndedThereIsNoMismatch) {
   EXPECT_EQ(told.find(alert_type::kModelMismatch), nullptr);
 }
 
-TEST(FollowingAlarm, WhileTheAuditOfTheDecaySpeaksItDoesNot) {
-  Told told;
+TEST(EstimatorAlarm, WhileTheAuditOfTheDecaySpeaksItDoesNot) {
+  Published told;
   told.follow.mismatch = 1.2;
   told.tell(1.0, true);
   EXPECT_EQ(told.find(alert_type::kModelMismatch), nullptr);
-  told.tell(0.1, false);  // and goes on where that has ended
+  told.tell(0.1, false);  // and continues where that has ended
   EXPECT_NE(told.find(alert_type::kModelMismatch), nullptr);
   told.follow.mismatch = 1.0;
   told.tell(3.0, true);
   EXPECT_NE(told.find(alert_type::kModelMismatch), nullptr);  // the audit's by now
 }
 
-TEST(FollowingAlarm, ADriftTellsWhichFromWhereToWhereAndSinceWhen) {
-  Told told;
+TEST(EstimatorAlarm, ADriftTellsWhichFromWhereToWhereAndSinceWhen) {
+  Published told;
   told.tell(10.0);
   told.follow.drift_parameter = "stiffness";
   told.follow.drift_from = 1.7e7;
@@ -139,7 +138,7 @@ TEST(FollowingAlarm, ADriftTellsWhichFromWhereToWhereAndSinceWhen) {
   for (const char* part : {"stiffness", "from 1.7e+07 to 1.649e+07 N/m", "(-3 %)", "since 3.5 s"}) {
     EXPECT_TRUE(has(text, part)) << part << " in: " << text;
   }
-  // Numbers that go on are no news; another sense is.
+  // Unchanged numbers publish nothing; another direction does.
   told.alerts.takeChanged();
   told.follow.drift_to = 1.64e7;
   told.tell(0.1);
@@ -148,7 +147,7 @@ TEST(FollowingAlarm, ADriftTellsWhichFromWhereToWhereAndSinceWhen) {
   told.tell(0.1);
   EXPECT_TRUE(told.alerts.takeChanged());
   told.follow.drift_parameter.clear();
-  told.follow.drift_limit = kNone;  // a reference is being learned anew: nothing is known
+  told.follow.drift_limit = kNone;  // a reference is being learned restarted: nothing is known
   told.tell(5.0);
   EXPECT_NE(told.find(alert_type::kDrift), nullptr);
   told.follow.drift_limit = 5.0;
@@ -156,10 +155,10 @@ TEST(FollowingAlarm, ADriftTellsWhichFromWhereToWhereAndSinceWhen) {
   EXPECT_EQ(told.find(alert_type::kDrift), nullptr);
 }
 
-TEST(FollowingAlarm, AChannelThatIsNotUsedForLongIsNamed) {
+TEST(EstimatorAlarm, AChannelThatIsNotUsedForLongIsNamed) {
   for (const auto& [status, how] : {std::pair(1, "has no new samples"), std::pair(2, "is rejected"),
                                     std::pair(3, "is invalid")}) {
-    Told told;
+    Published told;
     told.follow.channel_status[1] = static_cast<std::uint8_t>(status);
     told.tell(1.9);
     EXPECT_EQ(told.find(alert_type::kSensor), nullptr);
@@ -173,8 +172,8 @@ TEST(FollowingAlarm, AChannelThatIsNotUsedForLongIsNamed) {
   }
 }
 
-TEST(FollowingAlarm, AChannelThatComesAndGoesIsNone) {
-  Told told;
+TEST(EstimatorAlarm, AChannelThatComesAndGoesIsNone) {
+  Published told;
   for (int i = 0; i < 30; ++i) {
     told.follow.channel_status[0] = static_cast<std::uint8_t>(i % 2);
     told.tell(1.5);
@@ -182,8 +181,8 @@ TEST(FollowingAlarm, AChannelThatComesAndGoesIsNone) {
   EXPECT_EQ(told.find(alert_type::kSensor), nullptr);
 }
 
-TEST(FollowingAlarm, ShaftAndClockAreSensorsToo) {
-  Told told;
+TEST(EstimatorAlarm, ShaftAndClockAreSensorsToo) {
+  Published told;
   told.follow.shaft_known = false;
   told.follow.clock_offset = -3600.0;  // somebody has set it by an hour
   told.tell(2.2);
@@ -197,9 +196,9 @@ TEST(FollowingAlarm, ShaftAndClockAreSensorsToo) {
   EXPECT_TRUE(has(told.text(alert_type::kSensor), "drifts by +0.001 s/s"));
 }
 
-TEST(FollowingAlarm, WhatIsNotThereIsNotMissed) {
+TEST(EstimatorAlarm, WhatIsNotThereIsNotMissed) {
   // A pendulum has no keyphasor, and its clocks are the same; or nobody asks.
-  Told pendulum(false);
+  Published pendulum(false);
   pendulum.follow.shaft_known = false;
   pendulum.follow.clock_offset = kNone;
   pendulum.follow.clock_drift = kNone;
@@ -207,14 +206,14 @@ TEST(FollowingAlarm, WhatIsNotThereIsNotMissed) {
   EXPECT_TRUE(pendulum.alerts.active().empty());
   AlarmSettings settings;
   settings.clock_offset = settings.clock_drift = 0.0;
-  Told unasked(true, settings);
+  Published unasked(true, settings);
   unasked.follow.clock_offset = unasked.follow.clock_drift = 1.0e9;
   unasked.tell(10.0);
   EXPECT_TRUE(unasked.alerts.active().empty());
 }
 
-TEST(FollowingAlarm, AHundredDeadChannelsFitATextThatAMessageCarries) {
-  Told told;
+TEST(EstimatorAlarm, AHundredDeadChannelsFitATextThatAMessageCarries) {
+  Published told;
   for (int i = 0; i < 100; ++i) {
     told.follow.channel.push_back("probes/channel_" + std::to_string(i));
     told.follow.channel_status.push_back(1);
@@ -225,7 +224,7 @@ TEST(FollowingAlarm, AHundredDeadChannelsFitATextThatAMessageCarries) {
 }
 
 /// What a motor turns is followed by its pulses: without them its shaft is not known.
-TEST(FollowingAlarm, AKeyphasorIsMissedOfAShaftOnAMotorToo) {
+TEST(EstimatorAlarm, AKeyphasorIsMissedOfAShaftOnAMotorToo) {
   for (const char* drive :
        {"{motor: {stall_torque: 0.3, no_load_speed: 400.0}}", "{speed: 45.0}"}) {
     std::string scene = R"(
@@ -253,7 +252,7 @@ systems:
   }
 }
 
-TEST(FollowingAlarm, IsInTheMonitor) {
+TEST(EstimatorAlarm, IsInTheMonitor) {
   WatchedTwin watched(sceneOf(kThreeSystems));
   watched.run(1.0);
   state::FollowState follow = wellFollowed();
@@ -275,7 +274,7 @@ TEST(FollowingAlarm, IsInTheMonitor) {
   follow.system = "nobody";
   tell(1.0);  // is ignored
   follow.system = "rotor";
-  // States have ceased for seconds by now: a dead probe is said all the same.
+  // States have ceased for seconds by now: a dead probe is reported all the same.
   follow.channel_status[0] = 1;
   tell(4.0);
   EXPECT_NE(alerts.find("rotor", alert_type::kSensor), nullptr);

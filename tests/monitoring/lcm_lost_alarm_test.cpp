@@ -1,9 +1,8 @@
 // Messages that LCM cannot send, as the simulation's statistics tell them once a second.
-#include "monitoring/lcm_lost_alarm.h"
-
 #include <gtest/gtest.h>
 
 #include "messages/alert.h"
+#include "monitoring/data_alarms.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {

@@ -1,7 +1,5 @@
 // Settings changed while the monitor runs: checked like the file, whole or not at all, and the
-// alarms go on with what they know.
-#include "monitoring/live_alarm_settings.h"
-
+// alarms keep their state.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "messages/alert.h"
+#include "monitoring/alarm_settings_reader.h"
 #include "scene/scene_error.h"
 #include "watched_twin.h"
 
@@ -24,8 +23,8 @@ std::vector<std::string> errorsOf(LiveAlarmSettings& settings, const std::string
     settings.change(text);
   } catch (const SceneError& error) {
     return error.errors();
-  } catch (const Refusal& refusal) {
-    return {refusal.what()};
+  } catch (const InputError& inputError) {
+    return {inputError.what()};
   }
   return {};
 }
@@ -101,9 +100,10 @@ systems:
     parameters: {mass: 1.0, stiffness: 1.0e4, damping: 30.0, speed: 50.0}
 )";
 
-/// A monitor that is told a whirl [m] for a while, and settings.
-struct Told {
-  explicit Told(const std::string& text = "{amplitude: {rotor: {alert: 1.0e-3, danger: 5.0e-3}}}")
+/// A monitor that receives a whirl [m] for a while, and settings.
+struct Published {
+  explicit Published(
+      const std::string& text = "{amplitude: {rotor: {alert: 1.0e-3, danger: 5.0e-3}}}")
       : live(YAML::Load(text), "monitor.yaml", {"rotor"}),
         monitor(build(sceneOf(kCalm)), live.settings()) {}
   void tell(double radius, double duration) {
@@ -124,7 +124,7 @@ struct Told {
 };
 
 TEST(LiveAlarmSettings, ALoweredLevelRaisesAndOneThatIsLiftedClearsAfterItsDelay) {
-  Told told;
+  Published told;
   told.tell(0.8e-3, 1.0);
   EXPECT_EQ(told.alert(), nullptr);
   told.change("{amplitude: {rotor: {alert: 0.5e-3}}}");
@@ -139,7 +139,7 @@ TEST(LiveAlarmSettings, ALoweredLevelRaisesAndOneThatIsLiftedClearsAfterItsDelay
 }
 
 TEST(LiveAlarmSettings, AnAlertWhoseLevelIsTakenAwayClears) {
-  Told told;
+  Published told;
   told.tell(2.0e-3, 0.3);
   ASSERT_NE(told.alert(), nullptr);
   told.change("{amplitude: ~}");
@@ -148,7 +148,7 @@ TEST(LiveAlarmSettings, AnAlertWhoseLevelIsTakenAwayClears) {
 }
 
 TEST(LiveAlarmSettings, AnAlertKeepsItsIdAndWhatIsLatchedStays) {
-  Told told("{latch: all, amplitude: {rotor: {alert: 1.0e-3}}}");
+  Published told("{latch: all, amplitude: {rotor: {alert: 1.0e-3}}}");
   told.tell(2.0e-3, 0.3);
   ASSERT_NE(told.alert(), nullptr);
   const std::uint32_t id = told.alert()->id;
@@ -167,7 +167,7 @@ TEST(LiveAlarmSettings, AnAlertKeepsItsIdAndWhatIsLatchedStays) {
 }
 
 TEST(LiveAlarmSettings, ASetDelayThatRunsGoesOn) {
-  Told told("{delays: {WHIRL_AMPLITUDE: {set: 3}}, amplitude: {rotor: {alert: 1.0e-3}}}");
+  Published told("{delays: {WHIRL_AMPLITUDE: {set: 3}}, amplitude: {rotor: {alert: 1.0e-3}}}");
   told.tell(2.0e-3, 2.5);
   told.change("{subsynchronous: {rotor: 1.0e-5}}");
   told.tell(2.0e-3, 0.4);

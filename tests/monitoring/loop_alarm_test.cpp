@@ -1,12 +1,11 @@
-// Margins of the controllers' loops as the monitor tells them, and its alert on them.
-#include "monitoring/loop_alarm.h"
-
+// Margins of the controllers' loops as the monitor publishes them, and its alert on them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "messages/alert.h"
+#include "monitoring/controller_alarms.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {
@@ -52,7 +51,7 @@ TEST(LoopMargins, TellWhereStabilityIsLost) {
     const std::string expected = part < 1.0 ? "asymptotically_stable" : "unstable";
     EXPECT_EQ(judged(levitated(0.1, part * margins.gain_margin)).verdict_name, expected);
     EXPECT_EQ(judged(levitated(0.1, margins.gain_reduction / part)).verdict_name, expected);
-    // Between samples the delay is told to the second order of the period.
+    // Between samples the delay is known to the second order of the period.
     EXPECT_EQ(
         judged(levitated(0.1 + (part < 1.0 ? 0.97 : 1.03) * margins.delay_margin)).verdict_name,
         expected);
@@ -151,7 +150,7 @@ state::ControllerMargins peak(double time, double sensitivity) {
 
 TEST(LoopAlarm, LetsGoBeyondItsHysteresis) {
   AlertList list;
-  LoopAlarm alarm("pd", AlarmSettings{});
+  ControllerAlarms alarm(controllerNamed("pd"), AlarmSettings{});
   alarm.update(peak(0.0, 4.01), list);
   EXPECT_EQ(list.active().size(), 1u);
   for (int i = 1; i < 40; ++i) {

@@ -1,5 +1,5 @@
-// The heartbeat: it tells of its alerts and how old its verdicts are; one that has stopped is
-// missed, one that never was is not.
+// The heartbeat reports the alerts and the age of the verdicts; one that has stopped is missed, one
+// that never came is not.
 #include "messages/monitor_status.h"
 
 #include <gtest/gtest.h>

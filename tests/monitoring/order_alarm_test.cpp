@@ -1,12 +1,11 @@
 // Zones of vibration and whirl slower than the shaft, on what OrderState says.
-#include "monitoring/order_alarm.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 
 #include "messages/alert.h"
+#include "monitoring/vibration_alarms.h"
 #include "twin/order_observer.h"
 #include "watched_twin.h"
 
@@ -20,8 +19,8 @@ AlarmSettings withLevels() {
   return settings;
 }
 
-struct Told {
-  explicit Told(const AlarmSettings& settings = withLevels()) : alarm("rotor", settings) {
+struct Published {
+  explicit Published(const AlarmSettings& settings = withLevels()) : alarm("rotor", settings) {
     orders.valid = true;
     orders.speed = 200.0;
   }
@@ -49,7 +48,7 @@ struct Told {
 };
 
 TEST(VibrationZone, WarnsInCIsDangerInDAndClearsInB) {
-  Told told;
+  Published told;
   told.orders.peak_to_peak = 99e-6;
   told.tell(1.0);
   EXPECT_EQ(told.zone(), nullptr);
@@ -72,7 +71,7 @@ TEST(VibrationZone, WarnsInCIsDangerInDAndClearsInB) {
 TEST(VibrationZone, LevelsAreMultipliedInStartUp) {
   AlarmSettings settings = withLevels();
   settings.trip_multiply = 3.0;
-  Told told(settings);
+  Published told(settings);
   told.orders.peak_to_peak = 250e-6;
   told.tell(1.0, 5.0);
   EXPECT_EQ(told.zone(), nullptr);
@@ -82,7 +81,7 @@ TEST(VibrationZone, LevelsAreMultipliedInStartUp) {
 }
 
 TEST(SubsynchronousWhirl, IsAForwardLineBelowTheSpeedAndAboveItsLevel) {
-  Told told;
+  Published told;
   told.line(96.0, 19e-6);
   told.tell(1.0);
   EXPECT_EQ(told.whirl(), nullptr) << "too small";
@@ -108,7 +107,7 @@ TEST(SubsynchronousWhirl, IsAForwardLineBelowTheSpeedAndAboveItsLevel) {
 
 TEST(SubsynchronousWhirl, IsOilWhirlWhereTheRatioStaysAndWhipWhereTheFrequencyStays) {
   for (const bool whip : {false, true}) {
-    Told told;
+    Published told;
     for (double speed = 200.0; speed < 230.0; speed += 1.0) {
       told.orders.speed = speed;
       told.line(whip ? 99.0 : 0.47 * speed, 40e-6);
@@ -121,8 +120,8 @@ TEST(SubsynchronousWhirl, IsOilWhirlWhereTheRatioStaysAndWhipWhereTheFrequencySt
   }
 }
 
-struct Rubbing : Told {
-  Rubbing() : Told(levels()) { orders.precession = 1.0; }
+struct Rubbing : Published {
+  Rubbing() : Published(levels()) { orders.precession = 1.0; }
   static AlarmSettings levels() {
     AlarmSettings settings;
     settings.rub["rotor"] = {20e-6, 10e-6};
@@ -182,7 +181,7 @@ TEST(Rub, IsToldByAHalfAndAThirdOfTheSpeedAndByNoOtherLine) {
 }
 
 TEST(OrderAlarm, WithoutLevelsSaysNothing) {
-  Told told(AlarmSettings{});
+  Published told(AlarmSettings{});
   told.orders.peak_to_peak = 1.0;
   told.orders.precession = -1.0;
   told.line(100.0, 1.0);

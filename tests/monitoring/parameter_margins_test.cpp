@@ -85,11 +85,11 @@ TEST(ParameterMargins, ofInternalDampingAreThoseOfItsThreshold) {
   }
   EXPECT_STREQ(lossName(rotor.margins.front().loss.kind, *rotor.system()->dynamics), "whirl");
 
-  const auto nearest = nearestLoss(*rotor.system(), rotor.motion, rotor.speed);
+  const auto nearest = nearestInstability(*rotor.system(), rotor.motion, rotor.speed);
   ASSERT_TRUE(nearest);
   EXPECT_EQ(nearest->parameter, "speed");
   EXPECT_NEAR(nearest->change, 1.0 / 3.0, 1.0e-8);
-  EXPECT_FALSE(nearestLoss(*rotor.system(), rotor.motion, rotor.speed, [] { return true; }));
+  EXPECT_FALSE(nearestInstability(*rotor.system(), rotor.motion, rotor.speed, [] { return true; }));
 }
 
 // Cross-coupling kxy = +q, kyx = -q: unstable above q = c p, in either sense.
@@ -104,7 +104,7 @@ TEST(ParameterMargins, ofCrossCoupling) {
   EXPECT_EQ(rotor.margins.front().parameter, "damping");
 }
 
-// A negative number goes through zero to the other sign; the nearer way is told.
+// A negative number goes through zero to the other sign; the nearer one is reported.
 TEST(ParameterMargins, ofANumberWithASign) {
   const Operating rotor(rotorScene(
       "mass: 1.0, stiffness: 1.0e4, damping: 10.0, internal_damping: 10.0, cross_coupling: -500.0",

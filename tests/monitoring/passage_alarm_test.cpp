@@ -1,9 +1,8 @@
 // A resonance that keeps a shaft from its speed: the alert says what is done about it.
-#include "monitoring/passage_alarm.h"
-
 #include <gtest/gtest.h>
 
 #include "messages/alert.h"
+#include "monitoring/controller_alarms.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {
@@ -29,7 +28,7 @@ ControllerSpec governor() {
 
 TEST(PassageAlarm, SaysWhatIsDoneAboutACapture) {
   AlertList list;
-  PassageAlarm alarm(governor(), AlarmSettings{});
+  ControllerAlarms alarm(governor(), AlarmSettings{});
   alarm.update(stateAt(0.0, Supervision::kNone), list);
   EXPECT_TRUE(list.active().empty());
   const auto text = [&](double time, Supervision supervision) {
@@ -51,7 +50,7 @@ TEST(PassageAlarm, SaysWhatIsDoneAboutACapture) {
 
 TEST(PassageAlarm, SaysWhatIsRefusedAndWhy) {
   AlertList list;
-  PassageAlarm alarm(governor(), AlarmSettings{});
+  ControllerAlarms alarm(governor(), AlarmSettings{});
   alarm.update(stateAt(0.0, Supervision::kRefused), list);
   ASSERT_EQ(list.active().size(), 1u);
   EXPECT_EQ(list.active()[0].severity, state::Severity::kWarning);

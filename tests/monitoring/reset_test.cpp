@@ -197,8 +197,8 @@ TEST_F(Beside, TwinsAtTheSameSimulatedTimeCannotBeToldApart) {
             std::string::npos);
 }
 
-// A log of twin simulate tells no run: its stamps are of before the start. Played fast it passes
-// the twin's own time.
+// A log of twin simulate has no run number: its stamps are from before the start. Played fast it
+// passes the twin's own time.
 TEST_F(Beside, ALogThatIsPlayedClearsNothingAndIsNamed) {
   watched.announcements = 10'000'000'000;  // stamps of the wall clock
   watched.loop.started = 9'000'000'000;
@@ -289,7 +289,7 @@ TEST_F(InDanger, WhatIsUncertainRaisesAndClearsNothing) {
   EXPECT_EQ(watched.count("IN_CRITICAL_BAND", false), 1u);
 }
 
-// LCM has no checksum: one message with a wrong epoch is no reset while states go on as they were.
+// LCM has no checksum: one message with a wrong epoch is no reset while states continue unchanged.
 TEST_F(InDanger, AnAnnouncementThatNothingConfirmsClearsNothing) {
   watched.loop.epoch = 77;
   watched.announce();

@@ -69,7 +69,7 @@ TEST(ARunFilter, LetsALogAndMeasurementsOfNobodyPass) {
   EXPECT_EQ(filter.ofOthers(), 0U);
 }
 
-// The monitor tells active alerts again every 5 s, for those who come late.
+// The monitor publishes active alerts again every 5 s, for late subscribers.
 TEST(ARunFilter, LetsAlertsPassThatAreToldAgainWithoutAStamp) {
   RunFilter filter;
   Sender watched{"first", 90 * kSecond, 10.0};

@@ -1,12 +1,11 @@
 // What an actuator could not give, and for how long.
-#include "monitoring/saturation_alarm.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "messages/alert.h"
+#include "monitoring/controller_alarms.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {
@@ -38,7 +37,7 @@ TEST(SaturationAlarm, WarnsAfterTheTimeAllowedAndClears) {
   AlarmSettings settings;
   settings.saturation_time = 3.0;
   AlertList list;
-  SaturationAlarm alarm("hold", settings);
+  ControllerAlarms alarm(controllerNamed("hold"), settings);
   EXPECT_TRUE(std::isnan(alarm.saturated()));
   std::int64_t saturated = 0;
   double raised_at = 0.0, cleared_at = 0.0;
@@ -62,7 +61,7 @@ TEST(SaturationAlarm, ShorterThanAllowedIsNone) {
   AlarmSettings settings;
   settings.saturation_time = 3.0;
   AlertList list;
-  SaturationAlarm alarm("hold", settings);
+  ControllerAlarms alarm(controllerNamed("hold"), settings);
   std::int64_t saturated = 0;
   for (int i = 0; i <= 1000; ++i) {
     saturated += i > 200 && i <= 400 ? 2 : 0;
@@ -73,7 +72,7 @@ TEST(SaturationAlarm, ShorterThanAllowedIsNone) {
 
 TEST(SaturationAlarm, ATimeThatBeginsAnewIsNoNews) {
   AlertList list;
-  SaturationAlarm alarm("hold", AlarmSettings{});
+  ControllerAlarms alarm(controllerNamed("hold"), AlarmSettings{});
   alarm.update(told(50.0, 5000, 10000), list);
   alarm.update(told(0.0, 0, 0), list);
   alarm.update(told(1.0, 100, 20), list);

@@ -275,9 +275,10 @@ TEST_F(StabilityAlarmTest, ARotorAndItsShapesThatDisagreeAreAWarning) {
   alarm_.update(margin, list_);
   ASSERT_NE(unstable(), nullptr);
   EXPECT_EQ(unstable()->severity, state::Severity::kWarning);
-  EXPECT_EQ(unstable()->text,
-            "rotor at 100.0 rad/s (955 rpm): verdict uncertain, decay rate -0.2 1/s of the "
-            "full-order model, 0.5 1/s of the reduced-order model: retain more modes");
+  EXPECT_EQ(
+      unstable()->text,
+      "rotor at 100.0 rad/s (955 rpm): stability uncertain, the models disagree: decay rate "
+      "-0.2 1/s of the full-order model, 0.5 1/s of the reduced-order model: retain more modes");
   alarm_.update(marginOf(1.0, kUnstable, -0.05, -2.5), list_);
   EXPECT_EQ(unstable()->severity, state::Severity::kDanger);
 }

@@ -1,12 +1,11 @@
 // Levels that are larger while a shaft starts up are an alert of their own, for so long and no
 // longer.
-#include "monitoring/start_up.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "messages/alert.h"
+#include "monitoring/vibration_alarms.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {

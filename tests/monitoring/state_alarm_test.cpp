@@ -1,6 +1,4 @@
 // Alerts on states that cannot be trusted.
-#include "monitoring/state_alarm.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "../scene/scenes.h"
 #include "messages/alert.h"
+#include "monitoring/data_alarms.h"
 #include "scene/built_scene.h"
 #include "twin/stop_text.h"
 #include "twin/twin.h"

@@ -1,9 +1,8 @@
 // The speeds at which a rotor loses its stability or finds it again: seen from below, from between
 // and from above they are the same.
-#include "monitoring/threshold_speeds.h"
-
 #include <gtest/gtest.h>
 
+#include "monitoring/characteristic_speeds.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {

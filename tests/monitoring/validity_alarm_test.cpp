@@ -1,10 +1,9 @@
 // A warning while the equations of a system do not describe its machine.
-#include "monitoring/validity_alarm.h"
-
 #include <gtest/gtest.h>
 
 #include "../analysis/models_under_test.h"
 #include "messages/alert.h"
+#include "monitoring/data_alarms.h"
 
 namespace whirl_twin {
 namespace validity_alarm_test {

@@ -1,6 +1,4 @@
 // 2 of 3: one source that lies raises nothing, one that fails hides nothing and clears nothing.
-#include "monitoring/voted_alarm.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "messages/alert.h"
 #include "monitoring/alarm_settings_reader.h"
+#include "monitoring/vibration_alarms.h"
 #include "scene/scene_error.h"
 #include "watched_twin.h"
 

@@ -12,7 +12,7 @@
 
 #include "algebra/constants.h"
 #include "messages/alert.h"
-#include "monitoring/critical_speed_alarm.h"
+#include "monitoring/resonance_alarms.h"
 
 namespace whirl_twin {
 
@@ -31,7 +31,7 @@ inline state::CriticalSpeedMargin criticalAt(double speed, double low, double hi
   return critical;
 }
 
-// A rotor under its alarm, and everything the list told of it.
+// A rotor under its alarm, and everything the list published of it.
 class WatchedRotor {
  public:
   explicit WatchedRotor(

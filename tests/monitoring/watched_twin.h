@@ -26,6 +26,13 @@ inline state::WhirlState circularWhirl(const std::string& system, double time, d
   return whirl;
 }
 
+/// A controller of this name, as far as its alarms know it.
+inline ControllerSpec controllerNamed(const std::string& name) {
+  ControllerSpec spec;
+  spec.name = name;
+  return spec;
+}
+
 /// Runs the scene for `duration` [s] and feeds every step to the monitor.
 struct WatchedTwin {
   explicit WatchedTwin(const Scene& scene, const AlarmSettings& settings = {})

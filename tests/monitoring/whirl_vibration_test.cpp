@@ -10,7 +10,7 @@
 #include <random>
 
 #include "messages/alert.h"
-#include "monitoring/amplitude_alarm.h"
+#include "monitoring/vibration_alarms.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {

@@ -1,4 +1,4 @@
-// Bars and maps: SVG that reads, a bar where there is a value, contours where they belong.
+// Bars and maps: well-formed SVG, a bar for each value, contours at the right positions.
 #include "plots/bar_chart.h"
 
 #include <gtest/gtest.h>

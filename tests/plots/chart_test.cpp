@@ -1,4 +1,4 @@
-// Charts: SVG that reads, PNG of the size asked, lines that break where there is nothing.
+// Charts: well-formed SVG, PNG of the requested size, lines interrupted at missing data.
 #include "plots/chart.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <regex>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "svg_text.h"
 
 namespace whirl_twin {
@@ -165,8 +165,8 @@ TEST(Chart, AsPngHasTheSizeAsked) {
 TEST(ImageFormat, IsByExtension) {
   EXPECT_EQ(imageFormat("a/b.svg"), ImageFormat::kSvg);
   EXPECT_EQ(imageFormat("b.png"), ImageFormat::kPng);
-  EXPECT_THROW(imageFormat("b.pdf"), Refusal);
-  EXPECT_THROW(imageFormat("png"), Refusal);
+  EXPECT_THROW(imageFormat("b.pdf"), InputError);
+  EXPECT_THROW(imageFormat("png"), InputError);
 }
 
 }  // namespace chart_test

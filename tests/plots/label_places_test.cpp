@@ -1,4 +1,4 @@
-// Words on a chart: on no curve and on no other words, as long as there is room.
+// Labels on a chart: without overlap with curves or other labels, as long as there is space.
 #include "plots/label_places.h"
 
 #include <gtest/gtest.h>

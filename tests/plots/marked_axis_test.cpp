@@ -1,4 +1,4 @@
-// Two axes of one quantity: equal lengths, steps and powers of ten.
+// Two axes of one quantity: equal scales, steps and powers of ten.
 #include "plots/marked_axis.h"
 
 #include <gtest/gtest.h>

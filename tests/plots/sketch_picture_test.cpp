@@ -1,4 +1,4 @@
-// Pictures of sketches: every part is drawn, ghosts too, in a sheet that holds all of it.
+// Pictures of sketches: every element is drawn, ghosts too, within the sheet.
 #include "plots/sketch_picture.h"
 
 #include <gtest/gtest.h>
@@ -121,7 +121,7 @@ TEST(View, HoldsADiscSeenFromItsEdge) {
   Sketch sketch;
   sketch.discs = {{{}, {1.0, 0.0, 0.0}, 0.5, 0.1, 0.0, SketchRole::kBody}};
   const SketchBounds bounds = boundsOf(sketch, SketchView{});
-  // 60 corners stand for the circle: it is 1 - cos(pi / 60) = 0.14 % smaller at most.
+  // 60 corners approximate the circle: it is 1 - cos(pi / 60) = 0.14 % smaller at most.
   EXPECT_NEAR(bounds.right - bounds.left, 0.1, 1e-12);
   EXPECT_NEAR(bounds.bottom - bounds.top, 1.0, 0.0014);
 }

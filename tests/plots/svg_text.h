@@ -1,4 +1,4 @@
-// Looks into an SVG: is it well-formed, how many elements of a kind are there.
+// Checks of an SVG: well-formedness, and the number of elements of a kind.
 #pragma once
 
 #include <cstddef>

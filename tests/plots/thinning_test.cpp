@@ -38,13 +38,13 @@ TEST(Thinning, KeepsACurveToAFractionOfAPixel) {
   const std::vector<Spot> kept = thinned(line);
   EXPECT_LT(kept.size(), line.size() / 20);
   for (const Spot& spot : line) {
-    // 0.12 px from the line; as high as it is steep, 100 px * 2 pi * 5 / 700 px = 4.5, at most.
+    // 0.12 px from the line; in height by the slope, at most 100 px * 2 pi * 5 / 700 px = 4.5.
     ASSERT_NEAR(heightAt(kept, spot.x), spot.y, 0.12 * std::hypot(1.0, 4.5) + 1e-9);
   }
 }
 
 TEST(Thinning, KeepsThePeaksOfAFastOscillation) {
-  // Ten cycles a pixel: no screen shows them, but it shows how far they reach.
+  // Ten cycles a pixel: no screen resolves them, but their extent is visible.
   const std::vector<Spot> kept = thinned(wave(200001, 7000.0, 700.0, 100.0));
   EXPECT_LT(kept.size(), 6000u);  // four points each half pixel at most
   const auto [low, high] = std::minmax_element(

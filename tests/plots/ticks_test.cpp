@@ -82,7 +82,7 @@ TEST(Ticks, OfDegreesStandAtPartsOfATurn) {
   EXPECT_EQ(degreeTicks({0.0, 180.0}, 5), (std::vector<double>{0.0, 45.0, 90.0, 135.0, 180.0}));
   EXPECT_EQ(degreeTicks({-170.0, 175.0}, 6),
             (std::vector<double>{-180.0, -90.0, 0.0, 90.0, 180.0}));
-  // A degree or two are parts of none.
+  // A degree or two are no fraction of a turn with a tick.
   EXPECT_EQ(degreeTicks({1.0, 3.0}, 6), linearTicks({1.0, 3.0}, 6));
 }
 

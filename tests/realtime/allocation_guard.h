@@ -1,7 +1,8 @@
-// Counts what the calling thread allocates while a guard is alive: the proof that a step or a cycle
-// of the loop does not allocate. Linking whirl_twin_allocation_guard replaces malloc, calloc,
-// realloc and the aligned ones (and so operator new, which calls them) in the test's executable.
-// Under a sanitizer, which replaces malloc itself, the guard is inactive and counts nothing.
+// Counts the allocations of the calling thread while a guard exists, to verify that a step or a
+// cycle of the loop does not allocate. Linking whirl_twin_allocation_guard replaces malloc, calloc,
+// realloc and the aligned variants (and so operator new, which calls them) in the test's
+// executable. Under a sanitizer, which replaces malloc itself, the guard is inactive and counts
+// nothing.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The guard must catch whatever allocates, or the tests that rest on it prove nothing.
+// The guard must detect every allocation, or the tests that use it prove nothing.
 #include "allocation_guard.h"
 
 #include <gtest/gtest.h>
@@ -14,10 +14,10 @@
 namespace whirl_twin {
 namespace allocation_guard_test {
 
-// The compiler may leave out an allocation whose result nobody sees.
+// The compiler may elide an allocation whose result is unused.
 void* volatile seen = nullptr;
 
-// What the guard must say of so many allocations: under a sanitizer it counts none, and says so.
+// Expected count for so many allocations: under a sanitizer the guard is inactive and counts none.
 std::uint64_t counted(std::uint64_t allocations) {
   return AllocationGuard::active() ? allocations : 0;
 }

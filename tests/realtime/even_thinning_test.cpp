@@ -11,8 +11,8 @@ namespace even_thinning_test {
 
 constexpr std::size_t kCapacity = 1000;
 
-/// A ring that is filled while its consumer works: each record costs `look` to look at, and those
-/// that are taken `take` more, in units of the time from one record to the next.
+/// A ring that is filled while its consumer works: each record costs `look` to inspect, and those
+/// that are used `take` more, in units of the period of the records.
 struct Consumer {
   double look;
   double take;

@@ -1,4 +1,4 @@
-// How a fixed-rate loop begins and ends, and what it says of the rights it was given.
+// Start and end of a fixed-rate loop, and its report of the scheduling rights obtained.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "loop_trial.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "realtime/denormals.h"
 #include "realtime/fixed_rate_loop.h"
 #include "without_privileges.h"
@@ -30,7 +30,7 @@ TEST(FixedRateLoopControl, CanBeStoppedFromAnotherThread) {
   EXPECT_FALSE(loop.running());
   const int at_stop = cycles;
   EXPECT_EQ(loop.timing().cycles, static_cast<std::uint64_t>(at_stop));
-  loop.stop();  // once more does no harm
+  loop.stop();  // a second call is harmless
   EXPECT_EQ(cycles, at_stop);
 }
 
@@ -141,7 +141,7 @@ TEST(FixedRateLoopControl, AnOptionOutOfRangeIsNamed) {
   const auto message_of = [](FixedRateLoop::Options options) -> std::string {
     try {
       FixedRateLoop loop(options);
-    } catch (const Refusal& error) {
+    } catch (const InputError& error) {
       return error.what();
     }
     return "accepted";

@@ -1,4 +1,4 @@
-// How a fixed-rate loop keeps its time, however late the machine wakes it: counts and phases, no
+// Timing of a fixed-rate loop with any wake-up latency of the machine: counts and phases, no
 // latencies.
 #include "realtime/fixed_rate_loop.h"
 
@@ -14,12 +14,12 @@
 
 #include "allocation_guard.h"
 #include "loop_trial.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace fixed_rate_loop_test {
 
-// What the cycles of one run saw.
+// Recorded data of the cycles of one run.
 struct Trace {
   std::vector<std::int64_t> scheduled;
   std::vector<std::int64_t> woke;
@@ -150,7 +150,7 @@ TEST(FixedRateLoop, GivesUpWhenItIsLateForTooLong) {
   EXPECT_EQ(cycles, 30);
 }
 
-// What ran too long was not woken late; what follows one that did, in catching up, was.
+// A cycle that ran too long had no wake-up latency; the one that catches up after it had.
 TEST(FixedRateLoop, TellsLateWakeUpsFromLongCycles) {
   FixedRateLoop::Options options = ordinary(OverrunPolicy::kCatchUp);
   options.max_catch_up = 1'000'000;
@@ -193,15 +193,15 @@ TEST(FixedRateLoop, SaysWhenThereIsNoSuchProcessor) {
   }));
   waitForEnd(loop);
   options.cpu = -2;
-  EXPECT_THROW(FixedRateLoop{options}, Refusal);
+  EXPECT_THROW(FixedRateLoop{options}, InputError);
 }
 
 TEST(FixedRateLoop, DoesNotWaitAwakeForMoreThanHalfThePeriod) {
   FixedRateLoop::Options options = ordinary();
   options.busy_wait = kPeriod / 2 + 1;
-  EXPECT_THROW(FixedRateLoop{options}, Refusal);
+  EXPECT_THROW(FixedRateLoop{options}, InputError);
   options.busy_wait = -1;
-  EXPECT_THROW(FixedRateLoop{options}, Refusal);
+  EXPECT_THROW(FixedRateLoop{options}, InputError);
 }
 
 TEST(FixedRateLoop, WarmUpIsLeftOutOfTheHistogramsOnly) {
@@ -219,12 +219,12 @@ TEST(FixedRateLoop, TheThreeTimesAreMeasuredApart) {
   FixedRateLoop::Options options = ordinary(OverrunPolicy::kCatchUp);
   options.max_catch_up = 1'000'000;
   const Trace seen = trace(options, 10, 4, 4 * kPeriod);
-  // The loop's readings enclose those of the cycle: cycle 4 woke no later than woke[4], and cycle 5
-  // woke no earlier than late_end, late itself by what cycle 4 took too long.
+  // The loop's times enclose those of the cycle: cycle 4 woke no later than woke[4], and cycle 5
+  // woke no earlier than late_end, itself late by the overrun of cycle 4.
   EXPECT_GE(seen.timing.execution_time.max(), seen.late_end - seen.woke[4]);
   EXPECT_GE(seen.timing.period.max(), seen.late_end - seen.woke[4]);
   EXPECT_GE(seen.timing.wake_up_latency.max(), seen.late_end - seen.scheduled[5]);
-  // The other cycles do nothing: one of them at least is shorter than the one that was made long.
+  // The other cycles do nothing: at least one of them is shorter than the deliberately long one.
   EXPECT_LT(seen.timing.execution_time.min(), seen.timing.execution_time.max());
 }
 

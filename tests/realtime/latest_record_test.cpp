@@ -1,4 +1,4 @@
-// The newest record comes out whole, once, and in order, however the two threads run.
+// The newest record is read whole, once, and in order, with any timing of the two threads.
 #include <gtest/gtest.h>
 
 #include <algorithm>

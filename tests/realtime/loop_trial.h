@@ -1,4 +1,5 @@
-// What the tests of the fixed-rate loop share: a loop that asks for no rights, and a clock.
+// Shared by the tests of the fixed-rate loop: a loop that requires no scheduling rights, and a
+// clock.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,7 +35,7 @@ inline FixedRateLoop::Options ordinary(OverrunPolicy policy = OverrunPolicy::kSk
   return options;
 }
 
-// Waits until the loop has ended by itself. (A minute is no expectation, only an end to a hang.)
+// Waits until the loop has ended without stop(). (The minute only ends a hang.)
 inline void waitForEnd(const FixedRateLoop& loop) {
   const std::int64_t give_up = monotonicNow() + 60'000'000'000;
   while (loop.running() && monotonicNow() < give_up) {

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "realtime/fixed_rate_loop.h"
 
 namespace whirl_twin {
@@ -24,7 +24,7 @@ TEST(OverrunPolicy, TableOfCases) {
   constexpr auto kCatchUp = OverrunPolicy::kCatchUp;
   constexpr auto kStop = OverrunPolicy::kStop;
   const Case cases[] = {
-      // in time: every policy goes on one period later
+      // in time: every policy continues one period later
       {kSkip, 1000, 3, 1100, 0, false, false},
       {kSkip, 1050, 3, 1100, 0, false, false},
       {kCatchUp, 1099, 3, 1100, 0, false, false},
@@ -42,7 +42,7 @@ TEST(OverrunPolicy, TableOfCases) {
       {kSkip, 1401, 3, 1500, 4, true, false},
       {kCatchUp, 1350, 3, 1100, 0, true, false},
       {kStop, 1350, 3, 1100, 0, true, true},
-      // more missed than may be caught up: the oldest are left out
+      // more missed than may be caught up: the oldest are skipped
       {kCatchUp, 1350, 2, 1200, 1, true, false},
       {kCatchUp, 1401, 3, 1200, 1, true, false},
       {kCatchUp, 1350, 0, 1400, 3, true, false},
@@ -161,7 +161,7 @@ TEST(OverrunPolicy, AnUnknownNameIsRefusedWithWhatIsExpected) {
   try {
     parseOverrunPolicy("Skip");
     FAIL() << "accepted";
-  } catch (const Refusal& error) {
+  } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "overrun policy: must be skip, catch_up or stop, found \"Skip\"");
   }
 }

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "realtime/denormals.h"
 #include "without_privileges.h"
 
@@ -43,7 +43,7 @@ TEST(RealtimeMode, AnUnknownNameIsRefusedWithWhatIsExpected) {
   try {
     parseRealtimeMode("always");
     FAIL() << "accepted";
-  } catch (const Refusal& error) {
+  } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "realtime: must be enforce, warn or ignore, found \"always\"");
   }
 }

@@ -1,4 +1,4 @@
-// The way out of the real-time loop: records, whole and in order, or counted as dropped.
+// Output of the real-time loop: records arrive whole and in order, or are counted as dropped.
 #include "realtime/record_ring.h"
 
 #include <gtest/gtest.h>
@@ -86,8 +86,8 @@ TEST(RecordRing, NothingIsLostOrTornBetweenTwoThreadsWhenItIsDrained) {
   EXPECT_FALSE(ring.pop(found.data()));
 }
 
-// A producer that never waits: what arrives is in order and whole, and what arrived, what was
-// dropped and what was pushed agree.
+// A producer that never waits: records arrive in order and whole, and the numbers of those that
+// arrived, were dropped and were pushed agree.
 TEST(RecordRing, EveryRecordEitherArrivesOrIsCountedAsDropped) {
   constexpr std::int64_t kRecords = 50'000;
   RecordRing ring(kSize, 8);
@@ -109,7 +109,7 @@ TEST(RecordRing, EveryRecordEitherArrivesOrIsCountedAsDropped) {
   bool in_order_and_whole = true;
   Record found{};
   for (bool last_round = false; !last_round;) {
-    last_round = done;  // read before draining, so that nothing is left behind
+    last_round = done;  // read before draining, so that nothing remains
     while (ring.pop(found.data())) {
       const auto number = static_cast<std::int64_t>(found[0]);
       in_order_and_whole = in_order_and_whole && number > last && found == numbered(number);

@@ -56,7 +56,7 @@ TEST(TimingHistogram, APercentileIsNeverTooShortAndAtMostAThirtySecondTooLong) {
   }
 }
 
-// Latencies as they are: most around 20 us, a tail of three decades.
+// Realistic latencies: most around 20 us, a tail of three decades.
 TEST(TimingHistogram, PercentilesAgreeWithTheSortedSamples) {
   std::mt19937_64 random(7);
   std::lognormal_distribution<double> latency(std::log(20e3), 1.2);

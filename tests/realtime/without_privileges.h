@@ -1,6 +1,6 @@
-// While it lives, the calling thread and the threads it starts are those of a user without
-// real-time rights: capabilities dropped from effect, rtprio limit 0, a small memlock limit. So a
-// test of what happens then means the same when root runs it.
+// While it exists, the calling thread and the threads it starts have the rights of a user without
+// real-time privileges: effective capabilities dropped, rtprio limit 0, a small memlock limit. So a
+// test without privileges gives the same result when root runs it.
 #pragma once
 
 #include <linux/capability.h>

@@ -1,5 +1,5 @@
-// Commands about alarms by LCM and by topic, and settings changed by service, of a rotor that a
-// faster shaft makes unstable.
+// Commands about alarms by LCM and by topic, and settings changed by service, for a rotor that
+// becomes unstable at a higher shaft speed.
 
 #include <gtest/gtest.h>
 #include <whirl_twin/AlarmCommand.h>
@@ -89,7 +89,7 @@ TEST_F(AlarmCommandsTest, AnAlertIsAcknowledgedResetAndHeldBackByLcmAndTopic) {
   AlarmCommand hold;
   hold.command = AlarmCommand::INHIBIT;
   hold.system = "rotor";
-  hold.duration = 4000.0;  // refused: too long
+  hold.duration = 4000.0;  // rejected: too long
   topic_.publish(hold);
   hold.duration = 600.0;
   topic_.publish(hold);
@@ -114,7 +114,7 @@ TEST_F(AlarmCommandsTest, SettingsChangeWholeOrNotAtAllAndTheParametersFollow) {
                             "hysteresis: must be >= 0 and < 1"}) {
     EXPECT_NE(refused.message.find(wrong), std::string::npos) << refused.message;
   }
-  // Where the rotor is unstable, with no latch now: the alert goes with its cause.
+  // Where the rotor is unstable, without latching: the alert clears with its cause.
   const SetAlarmSettings::Response done = set("{latch: none, clear_delay: 0.2, amplitude: ~}");
   EXPECT_TRUE(done.success) << done.message;
   double delay = 0.0;

@@ -1,5 +1,5 @@
 // A run-up through a critical speed, live: the approach is announced before the rotor enters the
-// band, the band while it is in it, and after it has left both are cleared.
+// band, the band while it is inside, and both alerts clear after it has left.
 
 #include <gtest/gtest.h>
 #include <whirl_twin/AlertArray.h>
@@ -14,7 +14,7 @@
 namespace whirl_twin {
 namespace alerts_test {
 
-/// What the latched list said over time.
+/// The content of the latched list over time.
 struct AlertLog {
   std::optional<Alert> approach;  // as first raised
   std::optional<Alert> band;
@@ -69,7 +69,7 @@ TEST(Alerts, aRunUpIsAnnouncedAccompaniedAndCleared) {
   EXPECT_GE(log.band->speed, margin->band_low[0]);
   EXPECT_LE(log.band->speed, margin->band_high[0]);
   EXPECT_GT(log.band->raised_time, log.approach->raised_time);
-  EXPECT_EQ(log.raised, 2u);  // no alert came twice, and no other came
+  EXPECT_EQ(log.raised, 2u);  // no duplicate alert, and no other one
 }
 
 TEST(Alerts, theListIsLatched) {

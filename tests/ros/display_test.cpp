@@ -1,5 +1,4 @@
-// What the rviz displays draw: where things stand, which way they turn, how far they are
-// exaggerated.
+// Drawings of the rviz displays: positions, senses of rotation, magnification.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -155,7 +154,7 @@ TEST(RotorDisplay, ShaftIsHeldInItsBearingsAndFollowsTheDiscAtMidspan) {
   EXPECT_TRUE(shaft.front().isApprox(Eigen::Vector3d(0, 0, -0.65), kRounding));
   EXPECT_TRUE(shaft.back().isApprox(Eigen::Vector3d(0, 0, 0.65), kRounding));
   EXPECT_TRUE(shaft[12].isApprox(Eigen::Vector3d(0.1, -0.2, 0.0), kRounding));
-  // The first bending shape is half a sine: a sixth of the span in, half the midspan's deflection.
+  // The first bending mode is half a sine: at a sixth of the span half the midspan's deflection.
   EXPECT_NEAR(shaft[4].x(), 0.05, kRounding);
 }
 
@@ -180,7 +179,8 @@ TEST(RotorDisplay, ForwardWhirlTurnsCounterClockwiseSeenFromTheFront) {
   const Eigen::Vector3d axis = display.placedAt(Eigen::Vector3d::Zero()).translation();
   const Eigen::Vector3d first = position(0.0) - axis;
   const Eigen::Vector3d later = position(0.01) - axis;
-  // REP 103: forward is world x; a positive turn about it is counter-clockwise for who looks back.
+  // REP 103: forward is world x; a positive rotation about it is counter-clockwise as seen from the
+  // front.
   EXPECT_GT(first.cross(later).x(), 0.0);
   EXPECT_NEAR(display.placedAt(Eigen::Vector3d::Zero()).linear().determinant(), 1.0, kRounding);
 }

@@ -1,4 +1,4 @@
-// What the displays and the terminal say in words, and which topics they listen to.
+// Texts of the displays and the terminal, and the topics that they subscribe to.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -87,7 +87,8 @@ TEST(StatusText, GivesWhirlInMicrometresAndTheLagOnlyWhereItExists) {
   EXPECT_EQ(ordersText(orders), "backward");
 }
 
-// Oil whip: what the operator has to see is the line, not the lag of a whirl that has none.
+// Oil whip: the operator must see the non-synchronous component, not the lag of a whirl that has
+// none.
 TEST(StatusText, NamesTheLineThatIsLargerThanTheFirstOrder) {
   OrderState orders;
   orders.valid = orders.forward = true;

@@ -1,4 +1,4 @@
-// Reads back what a display has drawn.
+// Reads back the markers drawn by a display.
 #pragma once
 
 #include <stdexcept>

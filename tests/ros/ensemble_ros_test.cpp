@@ -1,4 +1,4 @@
-// The spread of an ensemble, live, on ROS and by way of LCM.
+// The spread of an ensemble, live, on ROS and through LCM.
 
 #include <gtest/gtest.h>
 #include <whirl_twin/EnsembleState.h>
@@ -20,7 +20,7 @@ using Spreads = std::map<std::int64_t, EnsembleState>;  // by step
 
 class Ensemble : public testing::Test {
  protected:
-  /// What the topic says from now on.
+  /// Records the messages of the topic from now on.
   void listen(const std::string& topic, Spreads& spreads) {
     const boost::function<void(const EnsembleState::ConstPtr&)> on_spread =
         [&spreads](const EnsembleState::ConstPtr& m) { spreads[m->step] = *m; };
@@ -44,7 +44,7 @@ double radius(double stiffness) {
 TEST_F(Ensemble, whirlsBetweenItsSoftestAndItsStiffestShaft) {
   Spreads spreads;
   listen("/twin/rotor/ensemble", spreads);
-  // By then the start has decayed to exp(-12 x 2) of it: what is left is the method's own
+  // By then the start has decayed to exp(-12 x 2) of it: the difference is the method's own
   // tolerance.
   ASSERT_TRUE(waitUntil([&] { return !spreads.empty() && spreads.rbegin()->second.time > 2.0; }));
   const EnsembleState& now = spreads.rbegin()->second;
@@ -56,8 +56,8 @@ TEST_F(Ensemble, whirlsBetweenItsSoftestAndItsStiffestShaft) {
   ASSERT_EQ(now.unit, std::vector<std::string>{"m"});
   EXPECT_GT(now.smallest[0], radius(7920.0) * (1.0 - 1.0e-5));
   EXPECT_LT(now.largest[0], radius(6480.0) * (1.0 + 1.0e-5));
-  // Fifty evenly spread members leave the tenth at one or the other end empty once in 97 seeds; the
-  // seed is always the same.
+  // Of fifty uniform samples none is in the outer tenth at one end for one seed in 97; the seed is
+  // fixed.
   EXPECT_LT(now.smallest[0], radius(7776.0));
   EXPECT_GT(now.largest[0], radius(6624.0));
   const std::vector<double> order{now.smallest[0], now.percentile_5[0],  now.percentile_25[0],
@@ -101,7 +101,7 @@ TEST_F(Ensemble, speaksFiftyTimesASimulatedSecond) {
     apart.push_back(step - std::prev(next)->first);
     EXPECT_GT(spread.header.stamp, std::prev(next)->second.header.stamp);
   }
-  // On a machine too slow for it some are left out, but never are they more frequent than promised.
+  // On a machine too slow for it some are skipped, but they are never more frequent than specified.
   const std::int64_t shortest = *std::min_element(apart.begin(), apart.end());
   EXPECT_GE(shortest, 15);
   EXPECT_LE(shortest, 25);

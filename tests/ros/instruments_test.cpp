@@ -1,5 +1,5 @@
-// What the instruments show: the margin on its scale, the speed beside the speeds to avoid, the
-// limits of an orbit, the alarms, the health of the loop; and nothing that is not live.
+// Display of the instruments: the margin on its scale, the speed beside the barred speed ranges,
+// the limits of an orbit, the alarms, the timing of the loop; and only live data.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -169,7 +169,7 @@ TEST(MarginGauge, ShowsNothingWhereNoDampingIsRequired) {
             (std::vector<std::string>{"margin_unstable", "margin_pointer"}));
 }
 
-/// A gauge without a live verdict has no pointer, no colours, and says why.
+/// A gauge without a live verdict has no pointer and no colours, and shows the reason.
 TEST(MarginGauge, WhatIsNotLiveShowsNothing) {
   LiveMargin silent;
   silent.why_not = "the last verdict is 12 s old";
@@ -201,7 +201,7 @@ TEST(MarginGauge, AVerdictIsLiveForThreeSecondsOrWhileTheSimulationIsHeld) {
 TEST(SpeedBar, HasTheBandWhereItBelongs) {
   const auto markers = panel(live(marginOf(0.3)), 60.0);
   const SpeedScale scale = speedScale(60.0, live(marginOf(0.3)).margin.get());
-  EXPECT_EQ(scale.end, 100.0);  // 71 and some room, rounded up
+  EXPECT_EQ(scale.end, 100.0);  // 71 and a margin, rounded up
   const Marker& track = part(markers, "speed_track");
   const double left = track.pose.position.x - 0.5 * track.scale.x;
   const auto speedAt = [&](double x) { return (x - left) / track.scale.x * scale.end; };

@@ -1,4 +1,4 @@
-// Where systems stand, and that the camera of the shipped rviz configuration sees all of them.
+// Positions of the systems, and that the camera of the shipped rviz configuration sees all of them.
 #include "display/layout.h"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ TEST(Layout, NoPlaceOverlapsAnotherOrTheColumn) {
   }
 }
 
-/// A rotor with three critical speeds, limits and three alerts says more than most.
+/// A rotor with three critical speeds, limits and three alerts has more text than most.
 TEST(Layout, ARotorStaysWithinItsPlace) {
   RotorDisplay rotor("pump", 0.0, 3.0);
   WhirlState state;

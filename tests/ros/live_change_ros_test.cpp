@@ -1,4 +1,5 @@
-// Parameters changed on the live twin: the state goes on, the topic tells, the monitor follows.
+// Parameters changed on the live twin: the state continues, the topic publishes them, the monitor
+// uses them.
 
 #include <gtest/gtest.h>
 #include <std_srvs/Trigger.h>
@@ -84,7 +85,7 @@ TEST_F(LiveChange, theStateGoesOnAndTheTopicTells) {
   EXPECT_EQ(value("rotor", "damping"), 12.0);
   EXPECT_TRUE(changes_["rotor"].changed.empty());
   EXPECT_EQ(value("swing", "force[0].amplitude"), 1.0);
-  // Until what the start has stirred up has died away, with 3 1/s.
+  // Until the initial transient has decayed, with 3 1/s.
   ASSERT_TRUE(waitUntil([&] { return whirls_.rbegin()->first > 3000; }));
   const SetParameter::Response response = set("rotor", "eccentricity", 5.0e-4);
   ASSERT_TRUE(response.success) << response.message;
@@ -107,7 +108,7 @@ TEST_F(LiveChange, theStateGoesOnAndTheTopicTells) {
       EXPECT_LT(std::fabs(now.energy_residual), 1.0e-9) << k;
     }
   }
-  // Five times the unbalance, five times the whirl, when what was before has died away.
+  // Five times the unbalance, five times the whirl, when the transient has decayed.
   ASSERT_TRUE(waitUntil([&] {
     return std::fabs(whirls_.rbegin()->second.radius / whirls_[response.step].radius - 5.0) < 0.05;
   }));

@@ -1,5 +1,5 @@
-// A log of the live simulation and one that `twin simulate` wrote of the same scene hold the same
-// channels and, at equal steps, the same values: what leaves a step is said once.
+// A log of the live simulation and one that `twin simulate` wrote of the same scene contain the
+// same channels and, at equal steps, the same values: the output of a step has a single definition.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -23,10 +23,10 @@ namespace whirl_twin {
 namespace live_log_test {
 
 constexpr const char* kScene = WHIRL_TWIN_SOURCE "/tests/ros/scenes/all_messages.yaml";
-constexpr std::int64_t kLastStep = 11000;  // parameters are told again after 10 s
+constexpr std::int64_t kLastStep = 11000;  // parameters are published again after 10 s
 
-/// The messages of a log by channel and step, as bits, without the stamp; those that only a live
-/// twin and its monitor have left out.
+/// The messages of a log by channel and step, as bits, without the stamp; without those that only a
+/// live twin and its monitor publish.
 using Log = std::map<std::string, std::map<std::int64_t, std::string>>;
 
 Log readLog(const std::string& path) {
@@ -72,7 +72,7 @@ TEST(LiveLog, holdsWhatASimulatedLogHolds) {
     recorder.record(std::chrono::milliseconds(5));
     return loop.step > kLastStep;
   }));
-  // Otherwise the observer has not seen every step, and need not say the same.
+  // Otherwise the observer has not processed every step, and may differ.
   ASSERT_EQ(loop.dropped_snapshots, 0u);
   const std::string simulate = std::string(WHIRL_TWIN_PROGRAM) + " simulate " + kScene +
                                " --duration 12 --output " + simulated;

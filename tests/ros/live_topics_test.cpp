@@ -100,7 +100,7 @@ TEST_F(LiveTopics, loopStatisticsSayWhatWasObtained) {
       };
   subscribers_.push_back(node_.subscribe<LoopStatistics>("loop", 10, keep));
   ASSERT_TRUE(waitUntil([&] { return heard; }));
-  EXPECT_EQ(loop.policy, "SCHED_OTHER");  // the test asks for no priority
+  EXPECT_EQ(loop.policy, "SCHED_OTHER");  // the test requests no priority
   EXPECT_EQ(loop.step_size, 0.001);
   ASSERT_EQ(loop.system.size(), 2u);
   EXPECT_EQ(std::set<std::string>(loop.system.begin(), loop.system.end()),
@@ -110,7 +110,7 @@ TEST_F(LiveTopics, loopStatisticsSayWhatWasObtained) {
   ASSERT_EQ(loop.error_estimate.size(), 2u);
   for (const double error : loop.error_estimate) {
     EXPECT_GE(error, 0.0);     // the first of the estimates may be yet to come
-    EXPECT_LT(error, 1.0e-6);  // auto's promise, and no alert
+    EXPECT_LT(error, 1.0e-6);  // the error bound of auto, and no alert
   }
 }
 

@@ -1,5 +1,5 @@
-// What the display of mechanisms draws: the model's sketch at its scale, the trail, and bars where
-// there is no sketch.
+// Display of mechanisms: the model's sketch at its scale, the trail, and bars where there is no
+// sketch.
 #include "display/mechanism_display.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ PendulumState swungOut(double theta, double time = 0.0) {
   return state;
 }
 
-/// A marker's pose in the axes of a system that stands at the origin.
+/// A marker's pose in the axes of a system at the origin.
 Eigen::Isometry3d inSystem(const MechanismDisplay& display, const Marker& marker) {
   const auto& p = marker.pose.position;
   const auto& o = marker.pose.orientation;
@@ -114,7 +114,7 @@ TEST(MechanismDisplay, TrailFollowsTheBobBackItsTimeAndNoFurther) {
   EXPECT_GE(oldest, 0.2 * 3.0 - kRounding);
   EXPECT_LE(oldest, 0.2 * (3.0 + MechanismDisplay::kTrailStep + 1e-3) + kRounding);
   EXPECT_NEAR(angle(trail.points.back()), 0.2 * 5.0, kRounding);
-  // A reset begins it anew.
+  // A reset restarts it.
   display.update(swungOut(0.0, 0.0), {});
   EXPECT_LE(part(frame(display), "trail").points.size(), 2U);
 }
@@ -235,7 +235,8 @@ TEST(MechanismDisplay, ShowsBarsWhereItKnowsNoModel) {
       }
     }
     ASSERT_EQ(bars.size(), 2U);
-    // Each on its own side of the line, as long as its scale says: x 2 for 0.1 m, x 1 for 0.2 rad.
+    // Each on its own side of the line, with the length of its scale: x 2 for 0.1 m, x 1 for 0.2
+    // rad.
     EXPECT_NEAR(inSystem(display, bars[0]).translation().z(), 0.5 * 0.2, kRounding);
     EXPECT_NEAR(inSystem(display, bars[1]).translation().z(), -0.5 * 0.2, kRounding);
     EXPECT_EQ(part(frame(display), "coordinate").text, "x");
@@ -293,7 +294,7 @@ TEST_P(EveryScene, IsDrawnWithinItsPlaceByMarkersThatStay) {
         const auto& p = m.pose.position;
         const auto& o = m.pose.orientation;
         EXPECT_NEAR(std::hypot(std::hypot(o.x, o.y), std::hypot(o.z, o.w)), 1.0, 1e-9) << m.ns;
-        // Places are 1.9 m apart along the row; words stand above, a rod may swing out.
+        // Places are 1.9 m apart along the row; text is above, a rod may swing out.
         EXPECT_LT(Eigen::Vector3d(p.x, p.y, p.z).norm(), 2.5) << m.ns << m.id;
         EXPECT_TRUE(m.scale.x >= 0.0 && m.scale.y >= 0.0 && m.scale.z >= 0.0) << m.ns;
         EXPECT_LT(std::hypot(m.scale.x, std::hypot(m.scale.y, m.scale.z)), 2.5) << m.ns;

@@ -1,5 +1,5 @@
-// The monitor beats while it is there, in a pause too; when it dies the simulation's diagnostics
-// say so.
+// The monitor publishes its heartbeat as long as it runs, also during a pause; when it dies the
+// simulation's diagnostics report it.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>

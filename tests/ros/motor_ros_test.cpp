@@ -27,7 +27,7 @@ TEST(Motor, whatItGivesIsDissipatedOrKept) {
   EXPECT_NEAR(last.torque, 0.5 * (1.0 - last.speed / 100.0), 1.0e-9);
   EXPECT_NEAR(last.motor_power, last.torque * last.speed, 1.0e-9);
   EXPECT_NEAR(last.drag_power, 0.001 * last.speed * last.speed, 1.0e-9);
-  // As well as the energy residual says, and the sum of the motor's work over the records.
+  // Within the energy residual, and the rounding of the motor's work summed over the records.
   EXPECT_NEAR(last.motor_work - first.motor_work,
               last.dissipated_work - first.dissipated_work + last.energy - first.energy,
               1.0e-6 * last.energy);

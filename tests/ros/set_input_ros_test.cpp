@@ -1,4 +1,4 @@
-// An input set live: the rotor leans into the force, and comes back when its time is out.
+// An input set live: the force displaces the rotor, which returns when the duration has elapsed.
 
 #include <gtest/gtest.h>
 #include <whirl_twin/InputCommand.h>
@@ -53,7 +53,7 @@ TEST(SetInput, takesCommandsByTopicAndByLcm) {
   ASSERT_TRUE(waitUntil([&] { return topic.getNumSubscribers() > 0; }));
   InputCommand command;
   command.input = {"force_x"};
-  command.value = {std::numeric_limits<double>::infinity()};  // refused: nothing moves
+  command.value = {std::numeric_limits<double>::infinity()};  // rejected: nothing moves
   command.duration = 2.0;
   topic.publish(command);
   command.value = {6.0};

@@ -1,4 +1,4 @@
-// What the display of a shaft draws: each of its parts, bent as it whirls, orbits where it is seen.
+// Display of a shaft: each of its elements, bent according to its whirl, orbits at its stations.
 #include "display/shaft_display.h"
 
 #include <gtest/gtest.h>

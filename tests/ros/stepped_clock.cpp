@@ -1,5 +1,5 @@
-// A wall clock that a test sets, for a process under LD_PRELOAD: CLOCK_REALTIME is ahead by as many
-// nanoseconds as stand in the file WALL_CLOCK_OFFSET.
+// A wall clock that a test sets, for a process under LD_PRELOAD: CLOCK_REALTIME is ahead by the
+// number of nanoseconds in the file WALL_CLOCK_OFFSET.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>

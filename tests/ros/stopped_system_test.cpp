@@ -1,4 +1,4 @@
-// A state that is no longer finite stops its own system, with an alert, and no other.
+// A non-finite state stops its own system, with an alert, and no other.
 
 #include <gtest/gtest.h>
 #include <whirl_twin/AlertArray.h>

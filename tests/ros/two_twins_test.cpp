@@ -1,5 +1,5 @@
 // Two twins under one master, /twin and /plant/machine, whose rotors have the same name: neither
-// hears the other, on ROS or on LCM.
+// receives the other's messages, on ROS or on LCM.
 
 #include <gtest/gtest.h>
 #include <whirl_twin/StabilityMargin.h>
@@ -22,11 +22,11 @@ constexpr double kTwinSpeed = 150.0;    // rad/s, of tests/ros/scenes/supercriti
 constexpr double kMachineSpeed = 30.0;  // rad/s, of tests/ros/scenes/ensemble.yaml
 constexpr std::size_t kEnough = 2000;   // states of each
 
-/// What has been heard of one rotor.
+/// Messages received of one rotor.
 struct Heard {
   std::size_t states = 0;
   std::set<double> speeds;         // rad/s, of the states
-  std::set<double> margin_speeds;  // rad/s, that the monitor judged it at
+  std::set<double> margin_speeds;  // rad/s, of the monitor's evaluations
 };
 
 class TwoTwins : public testing::Test {

@@ -1,5 +1,5 @@
-// Waiting for what a live system does, instead of sleeping: callbacks are served until a condition
-// holds or the patience ends.
+// Waiting for the state of a live system, instead of sleeping: callbacks are served until a
+// condition is true or the time-out expires.
 #pragma once
 
 #include <ros/callback_queue.h>

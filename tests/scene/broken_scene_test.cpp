@@ -1,5 +1,5 @@
-// A scene that is wrong is refused with every error in it, each naming the file, the key, what was
-// expected with its unit, and what was found.
+// An invalid scene is rejected with all its errors, each with the file, the key, the expected value
+// with its unit, and the value found.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -178,9 +178,10 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"MissingStep",
                "{systems: {a: {model: jeffcott_rotor, parameters: {" + kGood + "}}}}",
                {"step: missing; must be from 1e-09 to 10 s"}},
-        Broken{"MissingModel",
-               "{step: 1, systems: {a: {parameters: {mass: 1}}}}",
-               {"systems.a.model: missing; must be the name of a model"}},
+        Broken{
+            "MissingModel",
+            "{step: 1, systems: {a: {parameters: {mass: 1}}}}",
+            {"systems.a.model: missing; must be the name of a model, as listed by `twin models`"}},
         Broken{"Twice",
                rotorScene("mass: 1, mass: 2, stiffness: 100, speed: 5"),
                {"systems.rotor.parameters.mass: duplicate key"}},
@@ -226,8 +227,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Broken{"NeitherSpeedNorDrive",
                rotorScene(kNoSpeed),
-               {"systems.rotor.parameters.speed: missing; must be a finite number in rad/s, or "
-                "name a drive"}},
+               {"systems.rotor.parameters.speed: missing; must be a finite number in rad/s, unless "
+                "the key drive of the system names one"}},
         Broken{"BothSpeedAndDrive",
                rotorScene(kGood, ", drive: shaft", kShaft),
                {"systems.rotor.parameters.speed: the drive sets the speed: give drive or speed, "

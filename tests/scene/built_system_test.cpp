@@ -1,5 +1,5 @@
-// What is built of a scene: changed by the paths of its numbers, in the words of a scene file, and
-// there without any step.
+// A built system of a scene: changes by the paths of its parameters, with the error texts of a
+// scene file, and access without any step.
 #include "scene/built_system.h"
 
 #include <gtest/gtest.h>
@@ -31,11 +31,11 @@ systems:
     parameters: {mass: [[1, 0], [0, 2]], stiffness: [[3, -1], [-1, 3]]}
 )";
 
-/// What a change is refused with; "" if it is not.
-std::string refusalOf(const BuiltSystem& system, const std::string& path, double value) {
+/// The error of a change; "" if it is accepted.
+std::string inputErrorOf(const BuiltSystem& system, const std::string& path, double value) {
   try {
     static_cast<void>(system.with({path}, {value}, "set_parameter"));
-  } catch (const Refusal& error) {
+  } catch (const InputError& error) {
     return error.what();
   }
   return "";
@@ -67,25 +67,25 @@ TEST(BuiltSystem, KnowsItsNumbersByTheirPaths) {
 TEST(BuiltSystem, RefusesInTheWordsOfASceneFile) {
   const BuiltScene scene = build(sceneOf(kThreeSystems));
   const BuiltSystem& rotor = *scene.systems[0];
-  EXPECT_EQ(refusalOf(rotor, "mass", -1.0),
+  EXPECT_EQ(inputErrorOf(rotor, "mass", -1.0),
             "set_parameter: systems.rotor.parameters.mass: must be > 0 kg, found -1");
-  EXPECT_EQ(refusalOf(rotor, "mass", std::numeric_limits<double>::quiet_NaN()),
+  EXPECT_EQ(inputErrorOf(rotor, "mass", std::numeric_limits<double>::quiet_NaN()),
             "set_parameter: systems.rotor.parameters.mass: must be > 0 kg, found 'nan'");
-  EXPECT_EQ(refusalOf(rotor, "eccentricity_angle", std::numeric_limits<double>::infinity()),
+  EXPECT_EQ(inputErrorOf(rotor, "eccentricity_angle", std::numeric_limits<double>::infinity()),
             "set_parameter: systems.rotor.parameters.eccentricity_angle: must be a finite number "
             "in rad, found 'inf'");
-  EXPECT_EQ(refusalOf(rotor, "dampin", 1.0),
+  EXPECT_EQ(inputErrorOf(rotor, "dampin", 1.0),
             "set_parameter: systems.rotor.parameters.dampin: unknown parameter of jeffcott_rotor; "
             "did you mean 'damping'?");
-  EXPECT_EQ(refusalOf(rotor, "mass[0]", 1.0),
+  EXPECT_EQ(inputErrorOf(rotor, "mass[0]", 1.0),
             "set_parameter: systems.rotor.parameters.mass[0]: is a single number: write the name "
             "without an index");
   const BuiltScene shafts = build(sceneOf(kShaft));
   EXPECT_EQ(
-      refusalOf(*shafts.systems[0], "bearings[0].kx", 1.0),
+      inputErrorOf(*shafts.systems[0], "bearings[0].kx", 1.0),
       "set_parameter: systems.shaft.parameters.bearings[0].kx: unknown parameter of bearings; "
       "did you mean 'kxx'?");
-  EXPECT_EQ(refusalOf(*shafts.systems[1], "mass[0][0]", -1.0)
+  EXPECT_EQ(inputErrorOf(*shafts.systems[1], "mass[0][0]", -1.0)
                 .find("set_parameter: systems.linear.parameters.mass: "),
             0u)
       << "each number is right, but they do not fit together";

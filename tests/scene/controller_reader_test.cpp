@@ -1,5 +1,5 @@
-// The controllers of a scene: what is wrong with them is said all at once, and the parts that steps
-// are taken in.
+// The controllers of a scene: all their errors are reported at once, and the sub-steps between
+// their instants.
 #include "scene/controller_reader.h"
 
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ std::string withControllers(const std::string& controllers, const std::string& o
          controllers + "}";
 }
 
-std::vector<std::string> complaintsOf(const std::string& yaml) {
+std::vector<std::string> diagnosticsOf(const std::string& yaml) {
   try {
     static_cast<void>(sceneOf(yaml));
   } catch (const SceneError& error) {
@@ -55,7 +55,7 @@ TEST(ControllerReader, TakesWhatAControllerIs) {
 
 TEST(ControllerReader, SaysAllThatIsWrongAtOnce) {
   EXPECT_THAT(
-      complaintsOf(withControllers(
+      diagnosticsOf(withControllers(
           "{pd: {type: pidd, rate: 0.0, measures: [s.xx, {signal: s.x, direction: 1.0}], acts_on: "
           "[s.force_x, s.force_y], delay: -1, actuator: {limits: 3}, parameters: {kp: 2.0}}, 2x: "
           "{rate: 1.0e5, measures: s.x, acts_on: []}, q: {type: pid, rate: 20.0, measures: [s.x], "
@@ -69,9 +69,9 @@ TEST(ControllerReader, SaysAllThatIsWrongAtOnce) {
                              "'pidd'; did you mean 'pid'?"),
           testing::HasSubstr("controllers.pd.rate: must be from 0.001 to 1e+07 Hz, found 0.0"),
           testing::HasSubstr("controllers.pd.delay: must be from 0 to 1000 s, found -1"),
-          testing::HasSubstr(
-              "controllers.pd.measures[0]: must be a coordinate, a rate or a station "
-              "of a system, found 's.xx'; did you mean 's.x'?"),
+          testing::HasSubstr("controllers.pd.measures[0]: must be SYSTEM.COORDINATE, "
+                             "SYSTEM.COORDINATE_rate, SYSTEM or SYSTEM.STATION (a displacement, "
+                             "also with .x or .y), found 's.xx'; did you mean 's.x'?"),
           testing::HasSubstr("controllers.pd.measures[1].direction: needs a rotor"),
           testing::HasSubstr(
               "controllers.pd.acts_on[0]: 's.force_x' is already given by the system's inputs"),
@@ -91,17 +91,17 @@ TEST(ControllerReader, NoneIsNamedAsASystem) {
   const std::string law =
       ": {type: pid, rate: 20.0, measures: [s.x], acts_on: [s.force_x], parameters: {kp: 1.0}}";
   EXPECT_THAT(
-      complaintsOf(withControllers("{S" + law + "}")),
+      diagnosticsOf(withControllers("{S" + law + "}")),
       testing::ElementsAre(testing::HasSubstr("controllers.S: duplicate: a system or a station has "
                                               "this name, and parameters are published by name")));
-  EXPECT_THAT(complaintsOf(withControllers("{drives" + law + "}")),
+  EXPECT_THAT(diagnosticsOf(withControllers("{drives" + law + "}")),
               testing::ElementsAre(testing::HasSubstr(
                   "controllers.drives: the name of a controller must not be this")));
 }
 
 TEST(ControllerReader, MembersOfAnEnsembleHaveNone) {
   EXPECT_THAT(
-      complaintsOf(
+      diagnosticsOf(
           "{step: 0.001, systems: {r: {model: jeffcott_rotor, count: 10, spread: "
           "{mass: {standard_deviation: 0.1}}, parameters: {mass: 1.0, stiffness: 100.0, speed: "
           "5.0}}}, controllers: {pd: {type: pid, rate: 100.0, measures: [r.x], "
@@ -128,12 +128,12 @@ TEST(ControllerReader, FindsTheCriticalSpeedsThatAShaftIsBroughtPast) {
   EXPECT_NEAR(bands[0].from, 8.0, 0.01);
   EXPECT_NEAR(bands[0].to, 12.0, 0.01);
   EXPECT_EQ(bandsOf(", critical_speeds: true").size(), 1u) << "as API 617 asks";
-  EXPECT_THAT(complaintsOf(speedController(", critical_speeds: true, margin: 1.0")),
+  EXPECT_THAT(diagnosticsOf(speedController(", critical_speeds: true, margin: 1.0")),
               testing::ElementsAre(testing::HasSubstr(
                   "controllers.s.parameters.margin: must be 0, or from 0.001 to 0.9")));
-  EXPECT_THAT(complaintsOf(speedController(", margin: 0.1")),
+  EXPECT_THAT(diagnosticsOf(speedController(", margin: 0.1")),
               testing::ElementsAre(testing::HasSubstr("needs critical_speeds: true")));
-  EXPECT_THAT(complaintsOf(speedController(", retry_acceleration: 0.5")),
+  EXPECT_THAT(diagnosticsOf(speedController(", retry_acceleration: 0.5")),
               testing::ElementsAre(testing::HasSubstr(
                   "controllers.s.parameters.retry_acceleration: must be at least")));
 }
@@ -214,7 +214,7 @@ TEST(ControlInstants, NoOutputOvertakesTheOneBefore) {
 }
 
 TEST(ControllerReader, JitterIsNoMoreThanTheMean) {
-  EXPECT_THAT(complaintsOf(withControllers(
+  EXPECT_THAT(diagnosticsOf(withControllers(
                   "{pd: {type: pid, rate: 100.0, delay: {mean: 0.01, jitter: 0.02, sed: 1}, "
                   "measures: [s.x], acts_on: [s.force_x], parameters: {kp: 1.0}}}")),
               testing::ElementsAre(

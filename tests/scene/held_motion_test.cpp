@@ -1,7 +1,5 @@
-// Where laws hold systems, and that their loops are judged there: as the twin settles, and as it
-// runs away.
-#include "scene/held_motion.h"
-
+// Equilibria under closed-loop control, and the stability of the loops there: where the twin
+// settles, and where it diverges.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +10,9 @@
 
 #include "analysis/equilibria.h"
 #include "analysis/sampled_stability.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "scene/closed_loop.h"
+#include "scene/closed_loop_equilibrium.h"
 #include "scene/system_setup.h"
 #include "scenes.h"
 #include "twin/twin.h"
@@ -55,7 +54,7 @@ Eigen::VectorXd motionAfter(const Scene& scene, double seconds) {
 
 // The weight's stiffness at 120 degrees takes 4.9 N m/rad off; upside down, the equilibrium next to
 // the start, it would take 9.8, more than kp gives.
-TEST(HeldMotion, AnArmIsJudgedWhereItIsHeld) {
+TEST(ClosedLoopEquilibrium, AnArmIsJudgedWhereItIsHeld) {
   const double setpoint = 2.0 * M_PI / 3.0;
   const Scene scene = arm(3.0, setpoint);
   const ClosedLoop::Parts parts = partsOf(scene);
@@ -65,7 +64,7 @@ TEST(HeldMotion, AnArmIsJudgedWhereItIsHeld) {
   EXPECT_NEAR(motionAfter(scene, 60.0)[0], setpoint, 1e-6);
 }
 
-TEST(HeldMotion, OneThatIsTooWeakIsUnstableThere) {
+TEST(ClosedLoopEquilibrium, OneThatIsTooWeakIsUnstableThere) {
   const Scene scene = arm(3.0, 3.05);
   const ClosedLoop::Parts parts = partsOf(scene);
   EXPECT_NEAR(parts.about.at(0).q[0], 3.05, 1e-9);
@@ -73,7 +72,7 @@ TEST(HeldMotion, OneThatIsTooWeakIsUnstableThere) {
   EXPECT_GT(std::fabs(motionAfter(scene, 5.0)[0] - 3.05), 0.3);
 }
 
-TEST(HeldMotion, WhatAnActuatorCannotHoldIsSaid) {
+TEST(ClosedLoopEquilibrium, WhatAnActuatorCannotHoldIsSaid) {
   try {
     partsOf(arm(1.0, 1.5, 9.0));
     FAIL() << "an actuator of 9 N m does not hold 9.79";
@@ -93,18 +92,18 @@ Scene governor(const std::string& gains) {
       kGravity, gains));
 }
 
-// Its balls stand where cos theta = g / (l w^2).
-TEST(HeldMotion, AnEngineTurnsAsItIsHeld) {
+// Its balls are at cos theta = g / (l w^2).
+TEST(ClosedLoopEquilibrium, AnEngineTurnsAsItIsHeld) {
   const ClosedLoop::Parts parts = partsOf(governor("{setpoint: 8.0, kp: 3.0, ki: 2.0, kd: 0.0}"));
-  const HeldMotion& held = parts.about.at(0);
+  const ClosedLoopEquilibrium& held = parts.about.at(0);
   const double cosine = kGravity / (0.25 * 64.0);
   EXPECT_NEAR(held.q[0], std::acos(cosine), 1e-9);
   EXPECT_NEAR(held.v[1], 8.0, 1e-8);
   EXPECT_NEAR(held.inputs[0], 20.0 - 40.0 * cosine, 1e-7);
 }
 
-// A throttle that does next to nothing: the loop is the engine that hunts by itself.
-TEST(HeldMotion, ALoopThatDoesNothingIsItsPlant) {
+// A throttle with almost no effect: the loop is the self-oscillating engine alone.
+TEST(ClosedLoopEquilibrium, ALoopThatDoesNothingIsItsPlant) {
   const Scene scene = governor("{setpoint: 8.0, kp: 1.0e-12, ki: 0.0, kd: 0.0}");
   const SystemSpec& engine = scene.systems[0];
   const Eigen::Vector2d q(1.0, 0.0), v(0.0, 8.5);
@@ -120,9 +119,9 @@ TEST(HeldMotion, ALoopThatDoesNothingIsItsPlant) {
   EXPECT_NEAR(std::log(loop.spectral_radius) * 200.0, -alone->stability.decay_rate, 1e-7);
 }
 
-// A shaft that hangs in its magnets without an integral: the sag, and so the magnets' forces, are
-// those that the twin comes to rest with.
-TEST(HeldMotion, AShaftSagsInItsMagnetsAsItDoesInTheTwin) {
+// A shaft in magnetic bearings under control without an integral: the sag, and so the magnets'
+// forces, are those of the twin's equilibrium.
+TEST(ClosedLoopEquilibrium, AShaftSagsInItsMagnetsAsItDoesInTheTwin) {
   const Scene scene = sceneOf(
       "{step: 0.001, gravity: 9.81, drives: {shaft: {speed: 0.0}}, systems: {rotor: {model: "
       "flexible_rotor, drive: shaft, parameters: {gravity_on_shaft: true, youngs_modulus: 2.1e11, "

@@ -1,4 +1,4 @@
-// A file that is no scene, or no YAML, or no file, is an error like any other.
+// A file that is not a scene, not YAML, or missing is reported like any other error.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,7 +20,7 @@ class SceneFile : public testing::Test {
   ~SceneFile() override { std::filesystem::remove_all(directory_); }
 
   std::string path() const { return (directory_ / "scene.yaml").string(); }
-  /// What is said of a file with this content, without its path.
+  /// The error text for a file with this content, without its path.
   std::string complaint(const std::string& content) const {
     std::ofstream(path(), std::ios::binary) << content;
     return complaintOf(path());

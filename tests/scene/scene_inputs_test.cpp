@@ -1,5 +1,5 @@
-// Inputs in scene files: numbers, harmonics, tables from files beside the scene, and what is wrong
-// with them, each named with its key, unit, file, line and column.
+// Inputs in scene files: numbers, harmonics, tables from files beside the scene, and their errors,
+// each with key, unit, file, line and column.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -157,7 +157,8 @@ TEST_F(SceneInputs, TableMayBeWrong) {
     EXPECT_EQ(all.front().substr(0, start.size()), start);
     return all.front().substr(start.size());
   };
-  EXPECT_EQ(errors(""), "empty: the first line names the columns");
+  EXPECT_EQ(errors(""),
+            "must have the names of the columns in its first line, found an empty file");
   EXPECT_EQ(errors("t,taw\n0,1\n"), "no column 'tau'; did you mean 'taw'?");
   EXPECT_EQ(errors("t,tau,,x, tau,x,\"tau\",\n0,1,2,3,4,5,6,7\n"),
             "line 1: column names must be unique; columns 2, 5 and 7 are named 'tau'; columns 4 "

@@ -1,4 +1,4 @@
-// A scene is read with its defaults, in any way YAML or ROS parameters write it.
+// A scene is read with its defaults, in all notations of YAML and ROS parameters.
 #include "scene/scene_reader.h"
 
 #include <gtest/gtest.h>
@@ -99,7 +99,7 @@ Scene avoiding(const std::string& what, double damping) {
 
 TEST(SceneReader, AvoidsTheCriticalSpeedsOfWhatAShaftTurns) {
   // zeta = 0.02: the peak is at p / sqrt(1 - 2 zeta^2), 25 times the eccentricity high, so that API
-  // 617 asks for its whole 26 % below and 16 % above.
+  // 617 requires its whole 26 % below and 16 % above.
   const double critical = 100.0 / std::sqrt(1.0 - 2.0 * 0.02 * 0.02);
   const Scene scene = avoiding("{critical_speeds: true, bands: [{from: 7, to: 8}]}", 8.0);
   ASSERT_EQ(scene.drives[0].avoid.size(), 2u);
@@ -119,7 +119,7 @@ TEST(SceneReader, AvoidsTheCriticalSpeedsOfWhatAShaftTurns) {
 }
 
 TEST(SceneReader, TakesNumbersWrittenAsStrings) {
-  // ROS parameters turn 1.0e4 into a string, for YAML 1.1 wants a sign in the exponent.
+  // ROS parameters turn 1.0e4 into a string, because YAML 1.1 requires a sign in the exponent.
   const Scene scene = sceneOf(R"(
 step: "1.0e-3"
 systems:

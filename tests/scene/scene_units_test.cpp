@@ -1,4 +1,4 @@
-// Numbers of a scene with units of their own: converted once, where they are read.
+// Numbers of a scene with explicit units: converted once, where they are read.
 #include <gtest/gtest.h>
 
 #include <set>

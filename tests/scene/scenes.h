@@ -1,4 +1,4 @@
-// Scenes for the tests of this room: small, valid, and changed a key at a time.
+// Scenes for the tests of this folder: small, valid, and changed a key at a time.
 #pragma once
 
 #include <yaml-cpp/yaml.h>

@@ -1,4 +1,4 @@
-// The sensors of a scene: what can be said, and what is refused in which words.
+// The sensors of a scene: valid settings, and rejected ones with their error texts.
 #include "scene/sensor_reader.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ Scene with(const std::string& sensors) {
   return sceneOf(std::string(kThreeSystems) + "sensors: " + sensors + "\n");
 }
 
-std::string complaintsOf(const std::string& sensors) {
+std::string diagnosticsOf(const std::string& sensors) {
   try {
     with(sensors);
   } catch (const SceneError& error) {
@@ -48,25 +48,26 @@ TEST(SensorReader, ReadsWhatIsSaid) {
 }
 
 TEST(SensorReader, NamesEveryMistakeAtOnce) {
-  const std::string all = complaintsOf(
+  const std::string all = diagnosticsOf(
       "{probes: {rat: 2000.0, channels: {a: {measures: rotr.x, nois: 1.0}, b: {measures: "
       "governor.theta, run_out: 1.0e-5}, c: {}}}, tacho: {keyphasor: shat, rate: 5.0}, Probes: "
       "{rate: 0.0, channels: {}}}");
-  for (
-      const char* part :
-      {"sensors.probes.rat: unknown key of sensors; did you mean 'rate'?",
-       "sensors.probes.rate: missing",
-       "sensors.probes.channels.a.measures: must be a coordinate, a rate or a station of a system, "
-       "found 'rotr.x'; did you mean 'rotor.x'?",
-       "sensors.probes.channels.a.nois: unknown key of a sensor; did you mean 'noise'?",
-       "sensors.probes.channels.b.run_out: needs a displacement probe on a rotor",
-       "sensors.probes.channels.c.measures: missing",
-       "sensors.tacho.keyphasor: must be a drive of the scene, found 'shat'; did you mean 'shaft'?",
-       "sensors.tacho.rate: must not be given with a keyphasor",
-       "sensors.Probes: duplicate: other sensors have this name (upper and lower case are the "
-       "same)",
-       "sensors.Probes.rate: must be from 0.001",
-       "sensors.Probes.channels: sensors need at least"}) {
+  for (const char* part :
+       {"sensors.probes.rat: unknown key of sensors; did you mean 'rate'?",
+        "sensors.probes.rate: missing",
+        "sensors.probes.channels.a.measures: must be SYSTEM.COORDINATE, SYSTEM.COORDINATE_rate, "
+        "SYSTEM or SYSTEM.STATION (a displacement, also with .x or .y), found 'rotr.x'; did you "
+        "mean 'rotor.x'?",
+        "sensors.probes.channels.a.nois: unknown key of a sensor; did you mean 'noise'?",
+        "sensors.probes.channels.b.run_out: needs a displacement probe on a rotor",
+        "sensors.probes.channels.c.measures: missing",
+        "sensors.tacho.keyphasor: must be a drive of the scene, found 'shat'; did you mean "
+        "'shaft'?",
+        "sensors.tacho.rate: must not be given with a keyphasor",
+        "sensors.Probes: duplicate: other sensors have this name (upper and lower case are the "
+        "same)",
+        "sensors.Probes.rate: must be from 0.001",
+        "sensors.Probes.channels: sensors need at least"}) {
     EXPECT_NE(all.find(part), std::string::npos) << part << "\n" << all;
   }
 }

@@ -1,5 +1,5 @@
-// Modes of a rotor that noise excites, of which every mode is known: seen at two stations, with a
-// first and a second order, gaps and noisy probes on top.
+// Modes of a rotor with known modes under random excitation: measured at two stations, with a first
+// and a second order, gaps and noisy probes.
 #include "signal/ambient_modes.h"
 
 #include <gtest/gtest.h>
@@ -134,7 +134,7 @@ TEST(AmbientModes, IntervalsHoldWhatTheySay) {
   EXPECT_GE(inside_frequency, 0.91 * told);
   EXPECT_GE(inside_decay, 0.91 * told);
   EXPECT_LT(std::fabs(bias / told), 0.08);
-  EXPECT_LE(inside_frequency + inside_decay, 1.99 * told);  // and do not say everything
+  EXPECT_LE(inside_frequency + inside_decay, 1.99 * told);  // and are not trivially wide
 }
 
 TEST(AmbientModes, AreSaidToStandAtAnOrderThatCannotBeToldFromThem) {

@@ -1,4 +1,4 @@
-// Decay rates from ambient vibration: a rotor that noise excites, whose damping is known.
+// Decay rates from ambient vibration: a rotor with known damping under random excitation.
 #include "signal/decay_audit.h"
 
 #include <gtest/gtest.h>
@@ -38,8 +38,8 @@ TEST(SubspaceIdentification, SaysGrowthAsADecayBelowZero) {
   EXPECT_NEAR(modes[0].decay_rate, -0.5, 1e-9);
 }
 
-/// A rotor z'' + (c + ci) z' + (w^2 - i ci W) z = noise, with a first order and probes that are
-/// noisy. Stepped by the exact exponentials of its two modes.
+/// A rotor z'' + (c + ci) z' + (w^2 - i ci W) z = noise, with a first order and noisy probes.
+/// Stepped by the exact exponentials of its two modes.
 class NoisyRotor {
  public:
   NoisyRotor(double external, double internal, double speed, double probe_noise, unsigned seed)

@@ -1,4 +1,4 @@
-// The full spectrum of motions that are known.
+// The full spectrum of known motions.
 #include "signal/full_spectrum.h"
 
 #include <gtest/gtest.h>

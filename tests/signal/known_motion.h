@@ -1,4 +1,4 @@
-// Motions of which every part is known, sampled as a twin or a probe pair would.
+// Motions with known components, sampled as by a twin or a probe pair.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace whirl_twin {
 
 using Complex = std::complex<double>;
 
-/// Turns with 1X: unbalance response of an isotropic rotor, as if each speed were kept for long.
+/// Synchronous (1X) motion: unbalance response of an isotropic rotor, quasi-static in the speed.
 inline Complex quasiStaticResponse(double speed, double critical, double damping_ratio,
                                    double eccentricity) {
   return eccentricity * speed * speed /

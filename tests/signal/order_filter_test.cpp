@@ -1,4 +1,4 @@
-// What the tracking filter makes of motions of which every part is known.
+// The tracking filter on motions with known components.
 #include "signal/order_filter.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(OrderFilter, TellsForwardBackwardOrdersAndTheMeanApartToRounding) {
   EXPECT_GT(e.precession, 0.5);
 }
 
-// A count that is damaged, or a stamp: it goes on, and knows the orders again.
+// A corrupt count or time stamp: the filter continues, and finds the orders again.
 TEST(OrderFilter, IsNotHeldUpByACountThatJumps) {
   const Complex forward = std::polar(1e-4, -0.7);
   KnownMotion motion;

@@ -1,5 +1,5 @@
-// Critical speed and amplification factor by half power, of known responses and of run-ups through
-// the tracking filter.
+// Critical speed and amplification factor by the half-power method, for known responses and for
+// run-ups through the tracking filter.
 #include "signal/run_up_response.h"
 
 #include <gtest/gtest.h>

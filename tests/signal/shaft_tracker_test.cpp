@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "signal/recorded_signal.h"
+
 namespace whirl_twin {
 namespace shaft_tracker_test {
 
@@ -19,8 +21,8 @@ struct KnownShaft {
   std::function<double(double)> angle;
   double jitter = 0.0;   // [s]
   double missing = 0.0;  // share of the pulses
-  double twice = 0.0;    // share that is followed by one that is none, before the next
-  double dead_from = 1.0e9, dead_to = 0.0;  // [s], the pick-up is silent
+  double twice = 0.0;    // fraction of pulses followed by a spurious one before the next
+  double dead_from = 1.0e9, dead_to = 0.0;  // [s], the pick-up fails
 
   /// Instants [ns] until a time [s].
   std::vector<std::int64_t> pulses(double until) const {
@@ -52,8 +54,8 @@ struct KnownShaft {
   }
 };
 
-/// How far the tracker was off, at instants between the last pulse but one and half a turn beyond
-/// the last.
+/// Errors of the tracker, at instants between the last pulse but one and half a turn beyond the
+/// last.
 struct Errors {
   int asked = 0, known = 0, within_two = 0;
   double largest = 0.0;        // [rad], of the angle modulo a turn, where known
@@ -123,7 +125,7 @@ TEST(ShaftTracker, CountsAnglesFromTheMark) {
 }
 
 TEST(ShaftTracker, ItsDeviationIsThatOfItsErrors) {
-  // A shaft that does what the filter expects: the acceleration wanders, pulses jitter.
+  // A shaft that agrees with the filter's model: random-walk acceleration, jittering pulses.
   constexpr double kJerk = 40.0, kStep = 1.0e-4, kUntil = 60.0;
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
@@ -165,8 +167,8 @@ TEST(ShaftTracker, FollowsARunUpWithJitterMissingAndDoublePulses) {
   EXPECT_EQ(tracker.counts().locked, 1);
 }
 
-// Converters of 10 to 1,000 us under a scene that states 1 us, steady and in run-ups through a wide
-// range: the pulses are kept, and the angle is as good as with the right number stated.
+// Converters of 10 to 1,000 us with a scene that specifies 1 us, steady and in run-ups through a
+// wide range: the pulses are accepted, and the angle is as accurate as with the right value.
 TEST(ShaftTracker, LearnsTheJitterThatNobodyStated) {
   for (const double step : {1.0e-5, 3.9e-5, 1.0e-4, 3.0e-4}) {
     for (const double acceleration : {0.0, 10.0}) {
@@ -266,7 +268,7 @@ TEST(ShaftTracker, CountsTheTurnsOfAGapThatItCanBridge) {
 }
 
 TEST(ShaftTracker, LosesAShaftHonestlyAndFindsItAgain) {
-  // While nobody looks for two seconds, it goes from 100 to 160 rad/s.
+  // In a gap of two seconds without data, it goes from 100 to 160 rad/s.
   const auto angle = [](double t) {
     const double late = std::clamp(t - 4.0, 0.0, 2.0);
     return 100.0 * t + 15.0 * late * late + 60.0 * std::max(0.0, t - 6.0);
@@ -390,6 +392,11 @@ TEST(ShaftTracker, APulseThatIsNotLaterIsRefused) {
   EXPECT_FALSE(tracker.take(100));
   EXPECT_FALSE(tracker.take(50));
   EXPECT_EQ(tracker.counts().refused, 2);
+}
+
+TEST(RecordedSignal, TheSpeedKeptForLongest) {
+  EXPECT_NEAR(longestKeptSpeed({{10.0, 1.0}, {100.0, 3.0}, {100.5, 2.0}, {200.0, 4.0}}), 100.2,
+              1e-9);
 }
 
 }  // namespace shaft_tracker_test

@@ -1,4 +1,4 @@
-// The cascade of full spectra of motions of which every line is known.
+// The cascade of full spectra of motions with known spectral components.
 #include "signal/spectrum_cascade.h"
 
 #include <gtest/gtest.h>

@@ -51,7 +51,8 @@ TEST(Block, RotorsSideBySidePeakAsTheyDoOneByOne) {
   EXPECT_GT(failed, 0);  // of negative damping
 }
 
-// What turns its shaft, or measures something else, goes one by one.
+// Studies that vary the drive or a cross-coupling, or have another measure, are evaluated one by
+// one.
 TEST(Block, OthersGoOneByOne) {
   const std::atomic<bool> never{false};
   const StudyFiles files;
@@ -99,7 +100,7 @@ measure: {peak: max(rotor.whirl.radius)}
   EXPECT_EQ(oneByOne(files, study).size(), 5U);
 }
 
-// What a drive avoids about critical speeds is each point's own.
+// The barred ranges about critical speeds differ between points.
 TEST(Block, RotorsOnADriveThatAvoidsTheirCriticalSpeedsGoOneByOne) {
   const StudyFiles files;
   std::string scene = files.contents("scene.yaml");

@@ -15,7 +15,7 @@ TEST(Distribution, UniformMeetsItsEndsExactly) {
   EXPECT_DOUBLE_EQ(d.value(0.5), 0.4);
   EXPECT_EQ(d.level(0, 5), 0.1);
   EXPECT_EQ(d.level(4, 5), 0.7);
-  EXPECT_DOUBLE_EQ(d.level(0, 1), 0.4);  // one level stands in the middle
+  EXPECT_DOUBLE_EQ(d.level(0, 1), 0.4);  // one level is in the middle
 }
 
 TEST(Distribution, LogUniformHasItsGeometricMeanInTheMiddle) {

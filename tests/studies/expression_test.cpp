@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace expression_test {
@@ -36,24 +36,24 @@ TEST(Expression, NamesWhatItStandsOn) {
 }
 
 TEST(Expression, IsRefusedWithThePlace) {
-  const auto refusal = [](const std::string& text) -> std::string {
+  const auto inputError = [](const std::string& text) -> std::string {
     try {
       Expression e(text);
-    } catch (const Refusal& error) {
+    } catch (const InputError& error) {
       return error.what();
     }
     return "";
   };
-  EXPECT_EQ(refusal("1 +"), "must have a number, a name or '(' at character 4, found the end");
-  EXPECT_EQ(refusal("(1"), "must have ')' at character 3, found the end");
-  EXPECT_EQ(refusal("1 2"), "must have an operator or the end at character 3, found '2'");
-  EXPECT_NE(refusal("mx(rotor.x)").find("did you mean 'max'?"), std::string::npos);
-  EXPECT_NE(refusal("max(rotor.x, 2)").find("one argument"), std::string::npos);
-  EXPECT_NE(refusal("settling(rotor.x, 2)").find("> 0 and < 1"), std::string::npos);
-  EXPECT_NE(refusal(std::string(500, '(')).find("nested"), std::string::npos);
-  EXPECT_NE(refusal(std::string(5000, '1')), "");
-  EXPECT_NE(refusal(""), "");
-  EXPECT_NE(refusal("1e999"), "");
+  EXPECT_EQ(inputError("1 +"), "must have a number, a name or '(' at character 4, found the end");
+  EXPECT_EQ(inputError("(1"), "must have ')' at character 3, found the end");
+  EXPECT_EQ(inputError("1 2"), "must have an operator or the end at character 3, found '2'");
+  EXPECT_NE(inputError("mx(rotor.x)").find("did you mean 'max'?"), std::string::npos);
+  EXPECT_NE(inputError("max(rotor.x, 2)").find("one argument"), std::string::npos);
+  EXPECT_NE(inputError("settling(rotor.x, 2)").find("> 0 and < 1"), std::string::npos);
+  EXPECT_NE(inputError(std::string(500, '(')).find("nested"), std::string::npos);
+  EXPECT_NE(inputError(std::string(5000, '1')), "");
+  EXPECT_NE(inputError(""), "");
+  EXPECT_NE(inputError("1e999"), "");
 }
 
 double reduced(const std::string& name, double argument = 0.02) {

@@ -1,11 +1,11 @@
-// Optima that are known: by theory, or because nothing on a fine grid is better.
+// Known optima: from theory, or because no point of a fine grid is better.
 #include "studies/optimizer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "studies/study_reader.h"
 #include "study_files.h"
 
@@ -18,7 +18,7 @@ Optimum optimumOf(const Study& study) {
   return optimize(study, chooseSteps(study), kNever, [](std::uint64_t) {});
 }
 
-/// The measure that is looked for, of a point.
+/// The measure to be optimized, at a point.
 double measureAt(const Study& study, const std::vector<double>& values) {
   const StepsChosen steps = chooseSteps(study);
   PointEvaluator evaluator(study, steps, kNever);
@@ -115,8 +115,8 @@ optimize: {minimize: peak, method: bobyqa}
   EXPECT_EQ(again.evaluations, optimum.evaluations);
 }
 
-// Two discs with unbalances nobody knows, two masses to set: what cancels them over all speeds of a
-// run-up stands opposite to them.
+// Two discs with unknown unbalances, two masses to set: the masses that cancel them over all speeds
+// of a run-up are opposite to them.
 TEST(Optimizer, BalancesOverAllSpeedsOfARunUp) {
   const StudyFiles files;
   files.write("discs.yaml", R"(
@@ -189,7 +189,7 @@ run: {analyze: true, speed: 0.0}
   EXPECT_EQ(few.evaluations, 5U);
   EXPECT_FALSE(few.converged);
   EXPECT_NE(few.ended.find("limit of 5 evaluations was reached"), std::string::npos) << few.ended;
-  // Without damping that turns with it, a rotor never becomes unstable.
+  // Without rotating damping, a rotor never becomes unstable.
   const Optimum never = optimumOf(readStudy(files.study(
       rest +
       "measure: {threshold: margins.instability_speed}\noptimize: {maximize: threshold}\n")));

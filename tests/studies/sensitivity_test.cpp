@@ -104,7 +104,7 @@ TEST(SobolIndices, IntervalsHoldTheIndexIn95Of100) {
   }
 }
 
-// A sum's parts are those of its terms; a large mean takes nothing of them.
+// The indices of a sum are those of its terms; a large mean does not affect them.
 TEST(SobolIndices, OfASumAreThePartsOfItsVariance) {
   const Design design = indices(4096, 2);
   const SobolIndices found = sobolIndices(

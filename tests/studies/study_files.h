@@ -1,5 +1,4 @@
-// Studies for tests: a Jeffcott rotor of p = 100 rad/s, zeta = 0.05, and files that are gone when
-// the test is over.
+// Studies for tests: a Jeffcott rotor of p = 100 rad/s, zeta = 0.05, and temporary files.
 #pragma once
 
 #include <stdlib.h>

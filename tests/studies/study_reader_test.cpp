@@ -2,16 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "study_files.h"
 
 namespace whirl_twin {
 namespace study_reader_test {
 
-std::string refusalOf(const StudyFiles& files, const std::string& rest) {
+std::string inputErrorOf(const StudyFiles& files, const std::string& rest) {
   try {
     static_cast<void>(readStudy(files.study(rest)));
-  } catch (const Refusal& error) {
+  } catch (const InputError& error) {
     return error.what();
   }
   return "";
@@ -52,7 +52,7 @@ require: {peak: "< 2.0e-4", critical: ["> 80", "<= 120"]}
 
 TEST(StudyReader, TellsAllErrorsAtOnceEachAtItsPlace) {
   const StudyFiles files;
-  const std::string said = refusalOf(files, R"(
+  const std::string said = inputErrorOf(files, R"(
 vary:
   rotor.stifness: {uniform: [1, 2]}
   rotor.mass: {uniform: [-1.0, 1.0]}
@@ -78,25 +78,27 @@ require: {peek: "< 1"}
 
 TEST(StudyReader, RefusesPathsThatAreNoNumber) {
   const StudyFiles files;
-  EXPECT_SAYS(refusalOf(files, varied("shaft.profile[2].speed", "{uniform: [1, 2]}")),
+  EXPECT_SAYS(inputErrorOf(files, varied("shaft.profile[2].speed", "{uniform: [1, 2]}")),
               "there are 2 rows, counted from 0");
-  EXPECT_SAYS(refusalOf(files, varied("shaft.profile", "{uniform: [1, 2]}")),
+  EXPECT_SAYS(inputErrorOf(files, varied("shaft.profile", "{uniform: [1, 2]}")),
               "is not a single number: name one of its parts");
-  EXPECT_SAYS(refusalOf(files, varied("rotor", "{uniform: [1, 2]}")), "is not a single number");
-  EXPECT_SAYS(refusalOf(files, varied("nothing", "{uniform: [1, 2]}")),
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor", "{uniform: [1, 2]}")), "is not a single number");
+  EXPECT_SAYS(inputErrorOf(files, varied("nothing", "{uniform: [1, 2]}")),
               "must be a number of the scene");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.model", "{uniform: [1, 2]}")),
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.model", "{uniform: [1, 2]}")),
               "must be a number of the scene");
-  EXPECT_SAYS(refusalOf(files, varied("", "{uniform: [1, 2]}")), "must be a number of the scene");
-  EXPECT_EQ(refusalOf(files, varied("shaft.profile[1].speed", "{uniform: [180, 220]}")), "");
-  EXPECT_EQ(refusalOf(files, varied("systems.rotor.parameters.mass", "{uniform: [1, 2]}")), "");
-  EXPECT_EQ(refusalOf(files, varied("rotor.stiffness_y", "{uniform: [1, 2]}")), "");  // a default
-  EXPECT_EQ(refusalOf(files, varied("gravity", "{list: [9.8, 1.6]}")), "");
+  EXPECT_SAYS(inputErrorOf(files, varied("", "{uniform: [1, 2]}")),
+              "must be a number of the scene");
+  EXPECT_EQ(inputErrorOf(files, varied("shaft.profile[1].speed", "{uniform: [180, 220]}")), "");
+  EXPECT_EQ(inputErrorOf(files, varied("systems.rotor.parameters.mass", "{uniform: [1, 2]}")), "");
+  EXPECT_EQ(inputErrorOf(files, varied("rotor.stiffness_y", "{uniform: [1, 2]}")),
+            "");  // a default
+  EXPECT_EQ(inputErrorOf(files, varied("gravity", "{list: [9.8, 1.6]}")), "");
 }
 
 TEST(StudyReader, RefusesANumberThatVariesTwice) {
   const StudyFiles files;
-  EXPECT_SAYS(refusalOf(files, R"(
+  EXPECT_SAYS(inputErrorOf(files, R"(
 vary:
   shaft.max_acceleration: {list: [50, 100]}
   shaft.profile[1].max_acceleration: {list: [50, 100]}
@@ -110,50 +112,53 @@ measure: {critical: "critical_speeds[0]"}
 
 TEST(StudyReader, RefusesDistributionsThatAreNone) {
   const StudyFiles files;
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [2, 1]}")), "[lowest, highest]");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [1]}")), "found 1 entries");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [1, x]}")), "finite number");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [1, inf]}")), "finite number");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.damping", "{log_uniform: [0, 1]}")), "logarithm");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{normal: [1, 0]}")), "must be > 0");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{list: []}")), "found 0 entries");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "1.0")), "must be a map");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.bow", "{relative_half_width: 0.1}")),
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", "{uniform: [2, 1]}")), "[lowest, highest]");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", "{uniform: [1]}")), "found 1 entries");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", "{uniform: [1, x]}")), "finite number");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", "{uniform: [1, inf]}")), "finite number");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.damping", "{log_uniform: [0, 1]}")), "logarithm");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", "{normal: [1, 0]}")), "must be > 0");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", "{list: []}")), "found 0 entries");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", "1.0")), "must be a map");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.bow", "{relative_half_width: 0.1}")),
               "must not be relative to 0");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [1, 2], list: [1]}")),
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", "{uniform: [1, 2], list: [1]}")),
               "must be one of");
 }
 
 TEST(StudyReader, RefusesDesignsThatDoNotFit) {
   const StudyFiles files;
   const std::string uniform = "{uniform: [1, 2]}";
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "grid")), "{grid: LEVELS}");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "list")), "must be a list");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "{sobol: 0}")), "from 1 to 1e+09");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "{sobol: 1.5}")), "whole number");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "sobol")), "found nothing");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{list: [1, 2]}", "{morris: 5}")), "list");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", uniform, "grid")), "{grid: LEVELS}");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", uniform, "list")), "must be a list");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", uniform, "{sobol: 0}")), "from 1 to 1e+09");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", uniform, "{sobol: 1.5}")), "whole number");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", uniform, "sobol")), "found nothing");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", "{list: [1, 2]}", "{morris: 5}")), "list");
   EXPECT_SAYS(
-      refusalOf(files, varied("rotor.mass", uniform, "{morris: {trajectories: 5, levels: 3}}")),
+      inputErrorOf(files, varied("rotor.mass", uniform, "{morris: {trajectories: 5, levels: 3}}")),
       "must be even");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "{grid: 3, sobol: 3}")), "one design");
-  EXPECT_SAYS(refusalOf(files, varied("shaft.max_acceleration", "{list: [20]}", "one_at_a_time")),
-              "differs from move to move");
-  EXPECT_EQ(refusalOf(files, varied("rotor.mass", "{list: [1]}", "grid")), "");  // of one point
-  EXPECT_EQ(refusalOf(files, varied("rotor.mass", uniform, "{grid: 1}")), "");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", uniform, "{grid: 3, sobol: 3}")),
+              "one design");
+  EXPECT_SAYS(
+      inputErrorOf(files, varied("shaft.max_acceleration", "{list: [20]}", "one_at_a_time")),
+      "differs from move to move");
+  EXPECT_EQ(inputErrorOf(files, varied("rotor.mass", "{list: [1]}", "grid")), "");  // of one point
+  EXPECT_EQ(inputErrorOf(files, varied("rotor.mass", uniform, "{grid: 1}")), "");
 }
 
 TEST(StudyReader, RefusesOptimaThatCannotBeLookedFor) {
   const StudyFiles files;
   const auto optimized = [&](const std::string& optimize, const std::string& more = "") {
-    return refusalOf(files,
-                     "vary: {rotor.stiffness: {uniform: [1.0e4, 2.0e4]}, rotor.damping: "
-                     "{normal: [10, 1]}}\nrun: analyze\nmeasure: {critical: "
-                     "\"critical_speeds[0]\"}\noptimize: " +
-                         optimize + "\n" + more);
+    return inputErrorOf(files,
+                        "vary: {rotor.stiffness: {uniform: [1.0e4, 2.0e4]}, rotor.damping: "
+                        "{normal: [10, 1]}}\nrun: analyze\nmeasure: {critical: "
+                        "\"critical_speeds[0]\"}\noptimize: " +
+                            optimize + "\n" + more);
   };
   EXPECT_EQ(optimized("{minimize: critical, over: [rotor.stiffness]}"), "");
-  EXPECT_SAYS(optimized("{minimize: critical}"), "vary.rotor.damping: must have bounds");
+  EXPECT_SAYS(optimized("{minimize: critical}"),
+              "vary.rotor.damping: must have two different bounds");
   EXPECT_SAYS(optimized("{minimise: critical}"),
               "optimize.minimise: unknown key of optimize; did you mean 'minimize'?");
   EXPECT_SAYS(optimized("{minimize: critical, maximize: critical}"),
@@ -176,10 +181,10 @@ TEST(StudyReader, RefusesOptimaThatCannotBeLookedFor) {
 TEST(StudyReader, RefusesAlarmsThatThereAreNot) {
   const StudyFiles files;
   const auto alarms = [&](const std::string& measure, const std::string& run) {
-    return refusalOf(files,
-                     "vary: {rotor.stiffness: {uniform: [1.0e4, 2.0e4]}}\ndesign: "
-                     "{monte_carlo: 3}\nrun: {" +
-                         run + "}\nmeasure: {n: " + measure + "}\n");
+    return inputErrorOf(files,
+                        "vary: {rotor.stiffness: {uniform: [1.0e4, 2.0e4]}}\ndesign: "
+                        "{monte_carlo: 3}\nrun: {" +
+                            run + "}\nmeasure: {n: " + measure + "}\n");
   };
   EXPECT_EQ(alarms("alarms", "duration: 1"), "");
   EXPECT_EQ(alarms("alarms.IN_CRITICAL_BAND", "duration: 1"), "");
@@ -194,9 +199,9 @@ TEST(StudyReader, RefusesAlarmsThatThereAreNot) {
 TEST(StudyReader, TellsTheErrorsOfTheScene) {
   const StudyFiles files;
   files.write("scene.yaml", "step: 0.001\nsystems: {rotor: {model: jefcott_rotor}}\n");
-  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [1, 2]}")),
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.mass", "{uniform: [1, 2]}")),
               "did you mean 'jeffcott_rotor'?");
-  EXPECT_SAYS(refusalOf(files, ""), "run: missing");
+  EXPECT_SAYS(inputErrorOf(files, ""), "run: missing");
 }
 
 TEST(StudyReader, AGridHasEveryCombinationAndOneAtATimeTheScene) {

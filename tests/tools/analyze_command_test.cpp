@@ -219,7 +219,8 @@ TEST(Analyze, UndampedCriticalSpeedHasNoAmplificationFactor) {
   EXPECT_EQ(rotor["routh"]["verdict"], "marginal");
 }
 
-// A spinning pendulum faster than sqrt(g/l) rests at cos theta = g / (l w^2) on either side.
+// A spinning pendulum faster than sqrt(g/l) has equilibria at cos theta = g / (l w^2) on either
+// side.
 TEST(Analyze, SpinningPendulumFliesOutwards) {
   const double speed = 10.0;
   const Json pendulum = analyzed(
@@ -269,7 +270,7 @@ TEST(Analyze, WithoutAStableEquilibriumTheInitialStateIsLinearizedAbout) {
   EXPECT_LT(rotor["margins"]["decay_rate"], 0.0);
 }
 
-// On a drive the moment is that of its start: speed and acceleration of the shaft.
+// On a drive the analysis is at its start: speed and acceleration of the shaft.
 TEST(Analyze, ARotorWithWeightRestsWhereItSags) {
   const Json rotor = analyzed(
       "{model: jeffcott_rotor, parameters: {mass: 2, stiffness: 20000, damping: 20, "
@@ -321,8 +322,8 @@ TEST(Analyze, ARotorOnAWeakMotorHasThreeSteadySpeeds) {
   EXPECT_TRUE(end.json()["systems"]["captured"]["cross_coupling_margin"].is_null());
 }
 
-// The demo's rotor is still where it starts, at 4 rad/s: beside 60 rad/s it is too near its
-// critical speed, and that is what --speed asks.
+// The demo's rotor is still where it starts, at 4 rad/s: at 60 rad/s it is too near its critical
+// speed, and that is what --speed specifies.
 TEST(Analyze, OfASpeedIsThatOfAShaftHeldThere) {
   const Json held = twin({"analyze", kDemo, "--system", "rotor", "--speed", "62", "--json"}).json();
   EXPECT_EQ(held["systems"]["rotor"]["speed"], 62.0);
@@ -353,7 +354,7 @@ TEST(Analyze, OfAMomentIsThatOfTheMotionThen) {
 }
 
 TEST(Analyze, PrintsNoNoise) {
-  // Of a circle no axis is the long one; of a shaft's reduced matrices what is rounding is 0.
+  // A circle has no major axis; in a shaft's reduced matrices rounding residues are 0.
   EXPECT_NE(twin({"orbit", kDemo, "--speed", "30"}).out.find("circle"), std::string::npos);
   for (const std::string& line : linesOf(twin({"analyze", "balancing", "--speed", "70"}).out)) {
     if (line.compare(0, 24, "                        ") == 0) {
@@ -444,7 +445,8 @@ TEST(Analyze, OfALongShaftTheLowestModesAreThoseOfAll) {
   EXPECT_EQ(lowest["critical_speeds"].size(), all["critical_speeds"].size());
 }
 
-// Nothing bounds what a seal feeds beyond the damping of the bearings: no verdict without a proof.
+// Nothing bounds the energy input of a seal beyond the damping of the bearings: no verdict without
+// a proof.
 TEST(Analyze, OfALongShaftTheVerdictIsUncertainWhereNothingIsProvedOfTheOmitted) {
   const std::string shaft =
       longShaft("kxx: 1e6, kyy: 1e6, cxx: 5000, cyy: 5000", "kxy: 100.0, kyx: -100.0");
@@ -455,7 +457,8 @@ TEST(Analyze, OfALongShaftTheVerdictIsUncertainWhereNothingIsProvedOfTheOmitted)
   EXPECT_EQ(analyzed(damped)["routh"]["verdict"], "asymptotically_stable");
 }
 
-// Cross-coupling of bearings: where the first forward whirl grows, all say so and at which speed.
+// Cross-coupling of bearings: where the first forward whirl grows, all commands report it, at the
+// same speed.
 TEST(Analyze, OfALongShaftThatGrowsTheVerdictIsThatOfAll) {
   const std::string shaft =
       longShaft("kxx: 1e6, kyy: 1e6, cxx: 100, cyy: 100, kxy: 4e4, kyx: -4e4", "kxx: 0");

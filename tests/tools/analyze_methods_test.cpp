@@ -1,5 +1,5 @@
 // The methods of the lecture notes in `twin analyze`, and warnings of `twin simulate` where a
-// model's equations stop to hold.
+// model's equations cease to be valid.
 #include <gtest/gtest.h>
 
 #include <cmath>

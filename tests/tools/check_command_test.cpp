@@ -1,4 +1,4 @@
-// `twin check`: a sound scene is told in its parts, a broken one is refused with all its errors.
+// `twin check`: a valid scene is summarized, an invalid one is rejected with all its errors.
 #include <gtest/gtest.h>
 
 #include "twin_program.h"
@@ -71,7 +71,7 @@ systems:
     parameters: {mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 3, theta2: 3}}
 )");
   const Ending end = twin({"check", scene, "--json"});
-  ASSERT_EQ(end.status, 0) << end.err;  // what cannot be kept can still run
+  ASSERT_EQ(end.status, 0) << end.err;  // without a valid error bound it can still run
   const Json exact = end.json()["systems"]["exact"]["accuracy"];
   EXPECT_EQ(exact["tolerance"], 1.0e-9);
   EXPECT_EQ(exact["horizon"], 2.0);

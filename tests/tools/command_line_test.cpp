@@ -1,4 +1,4 @@
-// `twin` teaches its use, and says what is wrong with a usage that is not one.
+// `twin` prints its usage, and the error of an invalid command line.
 #include <gtest/gtest.h>
 
 #include "twin_program.h"
@@ -19,7 +19,7 @@ constexpr const char* kCommands[] = {
     "modes",   "balance",  "tradeoff", "sweep",       "routh", "log",       "record",   "play",
     "spy",     "watch",    "export",   "monitor",     "fit",   "follow"};
 
-/// "; there are: check, scenes, ...", as it is said where a command is none.
+/// "; there are: check, scenes, ...", as reported for an unknown command.
 std::string thereAre() {
   std::string all;
   for (const char* command : kCommands) {
@@ -49,7 +49,7 @@ TEST_P(CommandHelp, TellsWhatItDoesWithAnExample) {
   EXPECT_EQ(twin({GetParam(), "-h"}).out, help.out);
 }
 
-// Without Ceres `fit` only says where to get it.
+// Without Ceres `fit` only reports how to get it.
 INSTANTIATE_TEST_SUITE_P(Commands, CommandHelp,
                          testing::Values("check", "scenes", "models", "new", "simulate", "plot",
                                          "analyze", "campbell", "response", "orbit", "map",

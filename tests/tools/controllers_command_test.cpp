@@ -1,4 +1,4 @@
-// `twin controllers`: what a scene can name as the type of a controller.
+// `twin controllers`: the types of controller available in a scene.
 #include <gtest/gtest.h>
 
 #include "twin_program.h"
@@ -20,7 +20,8 @@ TEST(Controllers, AreToldWithUnitsAndDefaults) {
   EXPECT_EQ(pid["settings"]["anti_windup"]["default"], "back_calculation");
 }
 
-// A model's shaft has no speed of its own where it has a drive; a speed to be brought to has none.
+// The shaft speed of a model is not a parameter where it has a drive; a target speed has no
+// default.
 TEST(Controllers, ASpeedThatIsAskedForIsRequired) {
   const Json speed = twin({"controllers", "speed", "--json"}).json()["controllers"]["speed"];
   EXPECT_EQ(speed["parameters"]["speed"]["required"], true);

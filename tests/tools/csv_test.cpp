@@ -1,4 +1,4 @@
-// --csv: what a command tells as a table, as comma-separated values; the numbers are those of
+// --csv: the output of a command as a table of comma-separated values; the numbers are those of
 // --json.
 #include <gtest/gtest.h>
 
@@ -15,11 +15,11 @@ using Words = std::vector<std::string>;
 
 Words cellsOf(const std::string& line) {
   Words cells{""};
-  bool quoted = false;
+  bool inQuotes = false;
   for (const char letter : line) {
     if (letter == '"') {
-      quoted = !quoted;
-    } else if (letter == ',' && !quoted) {
+      inQuotes = !inQuotes;
+    } else if (letter == ',' && !inQuotes) {
       cells.emplace_back();
     } else {
       cells.back() += letter;
@@ -48,7 +48,7 @@ std::vector<std::map<std::string, std::string>> rowsOf(const std::string& path) 
   return rows;
 }
 
-/// Runs the command with --json, and once more with --csv into a folder.
+/// Runs the command with --json, and again with --csv into a folder.
 class Csv : public testing::Test {
  protected:
   Json run(Words arguments) {

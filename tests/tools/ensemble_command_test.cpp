@@ -1,4 +1,4 @@
-// What `twin` shows of a system that stands for many.
+// The output of `twin` for an ensemble.
 #include <gtest/gtest.h>
 #include <malloc.h>
 

@@ -1,5 +1,5 @@
-// Rotors that rest in oil films at half the clearance and more, and rotors above their whip
-// threshold, as a user analyses and monitors them. The right values come from independent
+// Rotors in equilibrium in oil films at half the clearance and more, and rotors above their whip
+// threshold, in analysis and monitoring commands. The reference values come from independent
 // computations outside this project: dense finite elements, numerical quadrature of Ocvirk's film,
 // Newton's method.
 #include <gtest/gtest.h>
@@ -104,7 +104,7 @@ TEST(Films, AboveTheThresholdTheGrowthRateIsThatAboutTheUnstableEquilibrium) {
   }
 }
 
-// At standstill no film carries anything: nothing is known, and that is what is reported.
+// At standstill no film carries a load: the verdict is unknown, and reported as such.
 TEST(Films, WithoutAnEquilibriumTheVerdictIsUncertain) {
   const TemporaryDirectory folder;
   std::string scene = contentsOf(caseOf("films"));

@@ -1,4 +1,4 @@
-// `twin fit`: a study as a user writes it, its report, its mistakes.
+// `twin fit`: a study as a user writes it, its report, its errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -130,7 +130,7 @@ TEST_F(Fit, SaysWhatIsNotTold) {
               HasSubstr("unidentifiable"));
 }
 
-/// What sensors measured, as an acquisition beside the machine records it.
+/// Sensor data as recorded by an acquisition system beside the plant.
 TEST_F(Fit, FitsALogOfWhatWasMeasured) {
   const std::string sensors =
       "sensors:\n  encoder: {rate: 200, channels: {theta: {measures: arm.theta, noise: 0.001}}}\n"
@@ -158,7 +158,7 @@ TEST_F(Fit, FitsALogOfWhatWasMeasured) {
   EXPECT_THAT(several.err, HasSubstr("found encoder/theta, other/theta"));
 }
 
-/// A measured pendulum, whose torque comes from the current of its motor.
+/// A measured pendulum, with the torque from the current of its motor.
 class MeasuredTorque : public Fit {
  protected:
   MeasuredTorque() {
@@ -180,7 +180,7 @@ class MeasuredTorque : public Fit {
   }
 };
 
-/// A swing-up tells its period, not its weight beside the torque's scale.
+/// A swing-up identifies its period, not its weight relative to the torque's scale.
 TEST_F(MeasuredTorque, OfASwingUpTellsThePeriod) {
   const nlohmann::json told = ofRecord("swing_up", "{column: theta, offset: fit}");
   const double mass = told["parameters"]["mass"]["value"];
@@ -189,14 +189,14 @@ TEST_F(MeasuredTorque, OfASwingUpTellsThePeriod) {
   for (const char* name : {"mass", "torque.scale"}) {
     EXPECT_THAT(told["undetermined"], testing::Contains(name));
   }
-  // The damping starts at a fifteenth of what it is to the mass: that is no reason to lose the
-  // mass.
+  // The damping starts at a fifteenth of its true value: the mass must still be found.
   EXPECT_GT(mass, 0.25);
   EXPECT_LT(told["runs"].begin().value()["rms"]["theta"].get<double>(), 5.0e-3);
 }
 
-/// Where its weight is balanced, and a hand moves it slowly, nothing but the ratio of weight and
-/// torque is told, with the encoder's zero or without, and what is not told stays where it starts.
+/// Where its weight is balanced, and a hand moves it slowly, only the ratio of weight to torque is
+/// identifiable, with a zero offset of the encoder or without; the others stay at their start
+/// values.
 TEST_F(MeasuredTorque, OfABalancedPendulumTellsNothing) {
   for (const char* measured : {"theta", "{column: theta, offset: fit}"}) {
     const nlohmann::json held = ofRecord("held", measured);
@@ -213,10 +213,10 @@ TEST_F(MeasuredTorque, OfABalancedPendulumTellsNothing) {
   }
 }
 
-/// The first swing with each line of numbers changed, or left out.
+/// The first swing with each line of numbers changed, or omitted.
 class ChangedSwing : public Fit {
  protected:
-  using Change = std::function<std::string(double time, double theta)>;  // "": left out
+  using Change = std::function<std::string(double time, double theta)>;  // "": omitted
   void write(const std::string& names, const Change& change) const {
     std::ifstream in(directory_.file("swing_1.csv"));
     std::ofstream out(directory_.file("changed.csv"));
@@ -255,7 +255,7 @@ TEST_F(ChangedSwing, InAUnitThatItsColumnNamesIsTakenInIt) {
   EXPECT_NEAR(end.json()["parameters"]["damping"]["value"], 0.03, 1e-3);
 }
 
-/// Both runs are told of, with all of their names.
+/// Both runs are reported, with all of their names.
 TEST_F(Fit, RefusesColumnsOfOneName) {
   directory_.write("swing_1.csv", "time,q,q,tau,tau\n0,1,2,3,4\n");
   directory_.write("swing_2.csv", "time,arm.theta,time\n0,1,2\n");

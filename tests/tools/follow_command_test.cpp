@@ -1,4 +1,4 @@
-// `twin follow`: a log or a table of measurements, followed.
+// `twin follow`: state estimation from a log or a table of measurements.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,13 +59,13 @@ TEST_F(FollowedArm, TellsWhatTheMachineIs) {
   EXPECT_EQ(arm["samples"]["refused"], 0);
   EXPECT_TRUE(arm["drift"].is_null());
 
-  // Its log is that of a twin, with what was measured and what was learned.
+  // Its log is that of a twin, with measurements and estimates.
   const Ending log = twin({"log", output});
   ASSERT_EQ(log.status, 0) << log.err;
   for (const char* name : {"TWIN_ARM_PENDULUM", "TWIN_ARM_FOLLOW", "TWIN_ENCODER_MEASUREMENT"}) {
     EXPECT_NE(log.out.find(name), std::string::npos) << name << " in\n" << log.out;
   }
-  // Followed again, what was measured gives the same.
+  // A second run on the recorded measurements gives the same.
   const Ending again = twin({"follow", other(), output, "--settings", settings, "--json"});
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(again.json()["systems"], end.json()["systems"]);
@@ -135,7 +135,7 @@ TEST_F(FollowedArm, ATableWithTwoColumnsOfOneNameIsRefused) {
       << end.err;
 }
 
-/// A torque that acts on the arm, in a column of its own: what the settings say it is.
+/// A torque that acts on the arm, in a separate column, declared in the settings.
 TEST_F(FollowedArm, AColumnOfATableActsOnAnInput) {
   const std::string motion = directory_.file("driven.csv");
   const std::string driven = directory_.write(

@@ -113,13 +113,13 @@ class Hdf5 {
 /// The cells of a line; those in quotation marks without them.
 Lines cellsOf(const std::string& line) {
   Lines cells{""};
-  bool quoted = false;
+  bool inQuotes = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    if (quoted && line.compare(i, 2, "\"\"") == 0) {
+    if (inQuotes && line.compare(i, 2, "\"\"") == 0) {
       cells.back() += line[i++];
     } else if (line[i] == '"') {
-      quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
+      inQuotes = !inQuotes;
+    } else if (line[i] == ',' && !inQuotes) {
       cells.emplace_back();
     } else {
       cells.back() += line[i];

@@ -1,4 +1,4 @@
-// Dry friction that holds, as users of the command line meet it.
+// Dry friction with sticking, in the commands of the program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// `twin import`: rotors as other programs write them are the same rotors here.
+// `twin import`: rotors in the formats of other programs give the same results here.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

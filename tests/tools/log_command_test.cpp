@@ -1,4 +1,4 @@
-// `twin log`: what is in an LCM log, and what is wrong with it.
+// `twin log`: the contents of an LCM log, and its defects.
 #include <gtest/gtest.h>
 
 #include "twin_program.h"
@@ -43,7 +43,7 @@ TEST_F(DemoLog, IsCompleteAndIntact) {
   EXPECT_EQ(directory_.files(), std::vector<std::string>{"demo.lcmlog"});
 }
 
-/// Parameters are told again with the instant of their change, long ago; the log goes forward.
+/// Parameters are published again with the instant of their change, long ago; the log goes forward.
 TEST(Log, LongerThanParametersAreToldOnceForIsIntact) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("long.lcmlog");
@@ -91,7 +91,7 @@ TEST_F(DemoLog, OfATwinWithAnotherPrefixIsToldByIt) {
 TEST_F(DemoLog, DamageIsFoundAndToldByTheExitStatus) {
   std::string bytes = contentsOf(path_);
   bytes.resize(bytes.size() - 10);
-  // More than an event long: the beginning of at least one is gone.
+  // Longer than an event: the header of at least one is lost.
   for (std::size_t i = 0; i < 250; ++i) {
     bytes[bytes.size() / 2 + i] = 'x';
   }

@@ -1,4 +1,4 @@
-// `twin loop`: the loops that controllers close, as they are sampled.
+// `twin loop`: the sampled loops that controllers close.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -78,7 +78,8 @@ TEST(Loop, MarginsOfALevitatedMass) {
   EXPECT_EQ(fast["axes"][0]["signal"], "s.x");
 }
 
-// A magnet whose law takes its negative stiffness away and no more stands nowhere.
+// A controlled magnet whose controller cancels exactly its negative stiffness has no restoring
+// force.
 TEST(Loop, WithoutNetStiffnessItIsMarginal) {
   EXPECT_EQ(controllerOf(levitation(1.0, 0.5, 0.125, 0.0))["verdict"], "marginal");
 }
@@ -91,8 +92,8 @@ TEST(Loop, IsPartOfAnalyze) {
   EXPECT_EQ(end.json()["controllers"]["pd"], controllerOf(scene));
 }
 
-/// [A], at the shaft's speed: the forward part of the current of the first magnet of the shipped
-/// scene at a constant speed [rad/s], its sensors without noise, from `from` to `to` [s].
+/// [A], at the shaft's speed: the forward component of the current of the first magnet of the
+/// shipped scene at a constant speed [rad/s], its sensors without noise, from `from` to `to` [s].
 double currentAtSpeed(double speed, bool notch, double from, double to) {
   std::string scene = contentsOf(WHIRL_TWIN_SOURCE "/config/scenes/levitation.yaml");
   scene = std::regex_replace(scene, std::regex("shaft: \\{.*"),
@@ -173,8 +174,8 @@ TEST(Loop, ADeadTimeOfManySamplesHasTheMarginsOfItsClosedForm) {
   }
 }
 
-// A rotor of 19.68 kg held 0.15 mm off the middle of its magnets, along y, which carries its
-// weight, and along x.
+// A rotor of 19.68 kg held 0.15 mm off the centre of its magnetic bearings, along y, where it has
+// its weight, and along x.
 TEST(Loop, HoldsARotorWithTheCurrentsThatBalanceIt) {
   const TemporaryDirectory folder;
   const Ending end = twin({"loop", folder.write("scene.yaml", R"(step: 0.001
@@ -219,7 +220,7 @@ controllers:
   EXPECT_NEAR(found["axes"][1]["sensitivity_peak"], 3.165, 1e-3);
 }
 
-// What four axes bear at once is less than what any bears alone (0.71 ms).
+// The delay margin of four axes at once is below that of each alone (0.71 ms).
 TEST(Loop, OfLevitationBearsLessDelayAtOnceThanAtEachSensor) {
   const Ending end = twin({"loop", "levitation", "--json"});
   ASSERT_EQ(end.status, 0) << end.err;

@@ -1,5 +1,5 @@
-// `twin modes` and `twin balance --measured`: what a log of the running machine tells, of rotors
-// whose modes and unbalances are known.
+// `twin modes` and `twin balance --measured`: results from a log of the running plant, for rotors
+// with known modes and unbalances.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,9 +14,9 @@ constexpr double kRadian = 3.14159265358979323846 / 180.0;
 const std::string kScenes = WHIRL_TWIN_SOURCE "/config/scenes/";
 const std::string kBalancing = kScenes + "balancing.yaml";
 
-/// A disc with internal damping at 90 rad/s, 1.5 times its critical speed: forwards it decays by
-/// less than backwards. Forces that nobody knows shake it; its probes are noisy, its surface is not
-/// round.
+/// A disc with internal damping at 90 rad/s, 1.5 times its critical speed: its forward whirl decays
+/// more slowly than the backward one. Unknown random forces excite it; its probes are noisy, its
+/// surface has run-out.
 std::string shakenRotor(const TemporaryDirectory& folder, double duration) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal(0.0, 1.0);
@@ -182,7 +182,8 @@ TEST(BalanceMeasured, FindsWhatTheShippedSceneHidesFromItsRunUp) {
   EXPECT_LT(told["residual_beyond_noise"].get<double>(), 1.2);
   expectHiddenUnbalances(told);
 
-  // At one speed run-out and unbalance are one; only how the run-up rings down tells a little.
+  // At one speed run-out and unbalance are indistinguishable; only the free decay at the end of the
+  // run-up gives a little information.
   const Ending one =
       twin({"balance", kBalancing, "--measured", log, "--json", "--from", "69.99999"});
   ASSERT_EQ(one.status, 0) << one.err;
@@ -229,7 +230,7 @@ TEST(BalanceMeasured, UsesTheProbesOfAllSources) {
                   0.4 * one["unbalance"][plane]["mass_radius_deviation"].get<double>());
     }
   }
-  // Of one that the log has not, that is said.
+  // A probe that the log lacks is reported.
   std::string text = contentsOf(onTwoUnits(folder, "2000.0"));
   text.replace(text.find("drive_end:"), 10, "other_end:");
   const auto half = told(folder.write("other.yaml", text), folder.file("run.lcmlog"));
@@ -261,7 +262,9 @@ TEST(BalanceMeasured, RefusesPlanesThatAreNotThereAndOptionsWithoutALog) {
   const std::string log = logOf(folder, kBalancing, 2.0);
   const Ending plane = twin({"balance", kBalancing, "--measured", log, "--planes", "node_22"});
   EXPECT_EQ(plane.status, 2);
-  EXPECT_NE(plane.err.find("has no station 'node_22'; did you mean 'node_2'?"), std::string::npos)
+  EXPECT_NE(
+      plane.err.find("no station 'node_22' on rotor (flexible_rotor); did you mean 'node_2'?"),
+      std::string::npos)
       << plane.err;
   EXPECT_EQ(twin({"balance", "runs.yaml", "--planes", "node_2"}).status, 2);
   const Ending none = twin({"balance", kBalancing, "--measured", log, "--from", "500"});

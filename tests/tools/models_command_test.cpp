@@ -1,4 +1,4 @@
-// `twin models`: what a scene can name.
+// `twin models`: the models available in a scene.
 #include <gtest/gtest.h>
 
 #include "twin_program.h"

@@ -52,7 +52,7 @@ TEST_F(RunUpLog, TheBandIsAnnouncedEnteredAndLeft) {
   EXPECT_NEAR(run["duration"].get<double>(), 12.0, 1e-6);
   EXPECT_EQ(run["rejected"], 0);
   EXPECT_EQ(run["damaged"], 0);
-  // 5 rad/s^2 from 30 rad/s on: in the band from 3.626 to 8.148 s, told two seconds before.
+  // 5 rad/s^2 from 30 rad/s on: in the band from 3.626 to 8.148 s, announced two seconds before.
   const Json approach = alertOf(run, "CRITICAL_SPEED_APPROACH");
   ASSERT_FALSE(approach.is_null());
   EXPECT_NEAR(approach["raised"].get<double>(), 1.626, 0.01);
@@ -70,7 +70,7 @@ TEST_F(RunUpLog, TheBandIsAnnouncedEnteredAndLeft) {
   EXPECT_NEAR(rotor["least_decay_rate"].get<double>(), 12.0 / (2.0 * 2.0), 1e-9);
 }
 
-/// Its parameters, told again every ten seconds, bear the time that they hold from.
+/// Its parameters, published again every ten seconds, carry the time of their last change.
 TEST_F(RunUpLog, NoSilenceIsHeardWhereNoneIs) {
   EXPECT_TRUE(alertOf(twin({"monitor", scene_, log_, "--json"}).json(), "DATA_LOST").is_null());
 }
@@ -113,7 +113,7 @@ TEST_F(RunUpLog, TellsTheResonanceThatWasPassedBesideTheModels) {
   const Json resonances = end.json()["systems"]["rotor"]["resonances"];
   ASSERT_EQ(resonances.size(), 1u) << resonances.dump();
   const Json& passed = resonances[0];
-  // The whirl answers late, by some 1/3 s, the time constant of its decay.
+  // The whirl responds late, by some 1/3 s, the time constant of its decay.
   EXPECT_GT(passed["speed"].get<double>(), 60.15);
   EXPECT_LT(passed["speed"].get<double>(), 60.15 + 2.0 * 5.0 / 3.0);
   EXPECT_NEAR(passed["time"].get<double>(), (passed["speed"].get<double>() - 30.0) / 5.0, 0.1);
@@ -178,7 +178,8 @@ TEST_F(RunUpLog, OfAnotherSceneIsRefused) {
   EXPECT_EQ(contentsOf(page), "") << "nothing half-done";
 }
 
-// What two oblique probes show of that run-up, with a run-out of 20 um: learnt at first, taken off.
+// Measurement of that run-up by two oblique probes, with a run-out of 20 um: identified first, then
+// compensated.
 TEST(MonitorCommand, TakesWhatSensorsMeasure) {
   const TemporaryDirectory directory;
   std::string text = kRunUp;

@@ -1,4 +1,4 @@
-// `twin new`: a scene of every model, sound, with all that can be said of it.
+// `twin new`: a valid scene of every model, with all its optional keys.
 #include <gtest/gtest.h>
 
 #include "twin_program.h"

@@ -1,6 +1,6 @@
-// Systems that alternating loads drive, as a user analyses and monitors them. The cases of the
-// shaken pivot have right values from an independent integration (scipy's DOP853) of Mathieu's
-// equation; the product of all multipliers is Liouville's, e^(-integral of the damping).
+// Systems with alternating loads, in analysis and monitoring commands. The reference values for the
+// oscillating pivot come from an independent integration (scipy's DOP853) of Mathieu's equation;
+// the product of all multipliers is Liouville's, e^(-integral of the damping).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// `twin plot`: which files, in which form, and what is refused.
+// `twin plot`: its files, their formats, and errors.
 #include <gtest/gtest.h>
 
 #include "twin_program.h"
@@ -58,7 +58,7 @@ TEST(Plot, DrawsWhatControllersGiveBesideTheStates) {
   EXPECT_NE(picture.find("torque (N m) over time (s)"), std::string::npos);
 }
 
-/// What the figures of a scene say of themselves: its charts, curves and marks.
+/// The descriptions of the figures of a scene: their charts, curves and marks.
 std::string wordsOf(const std::string& scene, const std::string& system, const std::string& kind,
                     const Names& options = {}) {
   const TemporaryDirectory folder;
@@ -167,7 +167,7 @@ TEST(Plot, MakesTheFolder) {
 
 TEST(Plot, ThatCannotBeWrittenLeavesNothingBehind) {
   const TemporaryDirectory folder;
-  // The last file's name is taken by a folder.
+  // A folder has the last file's name.
   std::filesystem::create_directory(folder.file("pendulum_energy.svg"));
   const Ending end = twin({"plot", kDemo, "--duration", "1", "--output", folder.file("")});
   EXPECT_EQ(end.status, 1);

@@ -1,5 +1,5 @@
-// `twin campbell`, `twin response`, `twin orbit` and `twin balance`: what they print, draw and
-// refuse.
+// `twin campbell`, `twin response`, `twin orbit` and `twin balance`: their output, drawings and
+// errors.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -119,7 +119,7 @@ TEST(Modes, OfADiscOnRigidPinsAreThoseOfTheShaftAlone) {
   EXPECT_NE(modes[0]["whirl"], modes[1]["whirl"]);
 }
 
-/// A shaft with a disc, reduced to what holds up to 600 rad/s.
+/// A shaft with a disc, reduced to a model valid up to 600 rad/s.
 const std::string kReduced = R"(
 step: 0.001
 systems:
@@ -209,7 +209,8 @@ TEST(Figures, OfTheDemoHaveTheirLagsInDegrees) {
   EXPECT_EQ(history.find("(rad)"), std::string::npos);
 }
 
-// A step that cannot be prepared is a matter of stepping: only what steps refuses the scene.
+// A step that cannot be prepared matters only for stepping: only stepping commands reject the
+// scene.
 TEST(RotorCommands, NeedNoStep) {
   const TemporaryDirectory folder;
   const std::string scene =

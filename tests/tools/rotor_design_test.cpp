@@ -1,5 +1,4 @@
-// What an engineer asks of a rotor on paper: mode shapes, critical speed map, response to a force
-// that does not turn.
+// Design analyses of a rotor: mode shapes, critical speed map, response to a non-rotating force.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -47,7 +46,7 @@ TEST(Modes, HaveTheirKappaAtEveryNode) {
   }
 }
 
-// The scene is stepped with some ten shapes; its modes are those of all 28 coordinates.
+// The scene is stepped with some ten modes; its mode shapes are those of all 28 coordinates.
 TEST(Modes, AreOfTheWholeShaft) {
   EXPECT_EQ(rotorOf(twin({"modes", kFriswell, "--speed", "100", "--json"}))["modes"].size(), 28u);
 }
@@ -77,7 +76,7 @@ TEST(Map, GoesFromTheRigidBodyToTheShaftBetweenPins) {
       twin({"analyze", kFriswell, "--json"}).json()["systems"]["rotor"]["rotor"]["mass"];
   EXPECT_NEAR(first[0].get<double>() / std::sqrt(2.0 * k[0].get<double>() / mass), 1.0, 0.05);
   EXPECT_NEAR(first.back().get<double>() / rotor["on_rigid_bearings"][0].get<double>(), 1.0, 0.01);
-  // Critical at 86.7 rad/s with 1e6 and 0.8e6 N/m: between what the map has of these.
+  // Critical at 86.7 rad/s with 1e6 and 0.8e6 N/m: between the map's values for these.
   const Json at = rotorOf(
       twin({"map", kFriswell, "--from", "0.8e6", "--to", "1.0e6", "--points", "2", "--json"}));
   EXPECT_LT(at["critical_speeds"][0][0].get<double>(), 86.7);
@@ -137,8 +136,8 @@ TEST(Force, AndPlaceChangePartsAtRest) {
   EXPECT_GT(std::abs(phasor(turning["y"][10])), 1.0e-3 * std::abs(phasor(turning["x"][10])));
 }
 
-// The scene under 2 N along y on node 5 at 130 rad/s, the shaft at 60 rad/s: once it has settled it
-// moves as the receptance says.
+// The scene under 2 N along y on node 5 at 130 rad/s, the shaft at 60 rad/s: its steady state
+// agrees with the receptance.
 TEST(Force, IsWhatTheSimulationComesTo) {
   const TemporaryDirectory folder;
   const std::string scene = folder.write("shaken.yaml", R"(

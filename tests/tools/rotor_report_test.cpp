@@ -1,4 +1,4 @@
-// Stability level I, and the report: one page with everything.
+// Level I stability analysis (API 617), and the report: one page with all results.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -143,7 +143,7 @@ TEST(Report, OfAFlexibleRotorHasEveryPart) {
   EXPECT_NE(page.find("AF &lt; 2.5: critically damped"), std::string::npos);
 }
 
-// Letters of a picture are shapes with names; two pictures on a page must not have one in common.
+// Letters of a picture are named glyph outlines; the names must be unique on a page.
 TEST(Report, HasNoNameTwice) {
   const TemporaryDirectory folder;
   ASSERT_EQ(twin({"report", kFriswell, "--output", folder.file("pages")}).status, 0);

@@ -83,7 +83,7 @@ TEST(Routh, UndefinedMarginsAreNull) {
   EXPECT_TRUE(overdamped["log_decrement"].is_null());
 }
 
-// Rounded roots of (s^2 + 1)^2 lie 1e-10 to either side of the axis; the margins say zero.
+// Rounded roots of (s^2 + 1)^2 lie 1e-10 to either side of the axis; the margins are zero.
 TEST(Routh, MarginsAgreeWithTheExactVerdict) {
   const Json repeated = judged({"1", "0", "2", "0", "1"});
   EXPECT_EQ(repeated["decay_rate"], 0.0);
@@ -155,7 +155,7 @@ TEST(Routh, TellsForWhichParameterItIsStable) {
   EXPECT_EQ(linesOf(end.out).front(), "asymptotically stable for K > 3/2");
   EXPECT_NE(end.out.find("K = 3/2 = 1.5  a pair on the axis at 1.22474 rad/s"), std::string::npos)
       << end.out;
-  // The option may stand anywhere, and coefficients begin with a minus.
+  // The option may be at any position, and coefficients begin with a minus.
   EXPECT_EQ(linesOf(twin({"routh", "--parameter", "K", "1", "2", "-K", "3"}).out).front(),
             "asymptotically stable for K < -3/2");
 }

@@ -1,4 +1,4 @@
-// `twin simulate`: options that cannot be, files that cannot be written, systems that stop.
+// `twin simulate`: invalid options, files that cannot be written, systems that stop.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{{"--output", "demo.txt"},
                 {"twin: --output: must end in .csv, .lcmlog or .mcap, found 'demo.txt'"}}));
 
-// What a third or two thirds of a second come to in a shell is no whole number of anything.
+// A third or two thirds of a second, computed in a shell, is no whole number of steps.
 TEST(Times, AreRoundedToWholeStepsAndItIsSaid) {
   struct Case {
     std::vector<std::string> options;
@@ -124,7 +124,7 @@ TEST(Output, FileAndJsonTogether) {
   EXPECT_EQ(linesOf(contentsOf(directory.file("demo.csv"))).size(), 1u + 1001u);
 }
 
-// A log has the scene that was simulated, before its first state, for those who play it.
+// A log contains the simulated scene, before its first state, for playback.
 TEST(Output, ALogHasTheSceneThatWasSimulated) {
   const TemporaryDirectory directory;
   const std::string log = directory.file("demo.lcmlog");

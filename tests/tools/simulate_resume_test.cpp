@@ -1,5 +1,5 @@
-// `twin simulate --checkpoint` and `--resume`: the rest of a run is byte for byte that of one that
-// was never broken off; what cannot be gone on from is refused.
+// `twin simulate --checkpoint` and `--resume`: the remainder of a run is byte-identical to that of
+// an uninterrupted one; an unsuitable checkpoint is rejected.
 #include <gtest/gtest.h>
 
 #include <fstream>

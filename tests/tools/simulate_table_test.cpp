@@ -1,4 +1,4 @@
-// The table and the JSON of `twin simulate`: what stands where, and that it is exact.
+// The table and the JSON of `twin simulate`: their columns, and that the numbers are exact.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -139,7 +139,7 @@ TEST(Table, JsonHasTheFinalState) {
   }
   EXPECT_LT(std::fabs(rotor["energy_residual"].get<double>()), 1e-6);
   EXPECT_FALSE(end["systems"]["pendulum"].contains("whirl_radius"));
-  // At rest there is no phase: NaN, which JSON does not know.
+  // At rest the phase is undefined: NaN, which JSON cannot represent.
   const Json start = twin({"simulate", kDemo, "--duration", "0", "--json"}).json();
   EXPECT_TRUE(start["systems"]["rotor"]["whirl_phase"].is_null());
 }

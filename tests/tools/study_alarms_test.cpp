@@ -1,4 +1,4 @@
-// Alarms that a study counts are those that the monitor raises of the same run's log.
+// The alarms counted by a study are those that the monitor raises for the same run's log.
 #include <gtest/gtest.h>
 
 #include <utility>

@@ -1,4 +1,4 @@
-// `twin sweep` of a study that looks for an optimum, as it is printed.
+// `twin sweep` of a study that searches an optimum, as printed.
 #include <gtest/gtest.h>
 
 #include "swept_study.h"
@@ -49,7 +49,7 @@ TEST(StudyOptimum, HasNoUseForWhatGoesWithADesign) {
   EXPECT_EQ(twin({"plot", files.study, "--results", files.file("r")}).status, 2);
 }
 
-// The peak falls as the run-up gets faster: the least acceleration uses the amplitude up.
+// The peak falls as the run-up gets faster: the smallest acceleration reaches the amplitude limit.
 TEST(StudyOptimum, OfTheShippedRunUpIsAtItsLimit) {
   const nlohmann::json said =
       twin({"sweep", WHIRL_TWIN_SOURCE "/config/studies/slowest_run_up.yaml", "--json"}).json();

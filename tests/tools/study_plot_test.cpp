@@ -1,4 +1,4 @@
-// `twin plot` of a study's results: which pictures there are, and what they say.
+// `twin plot` of a study's results: the pictures and their texts.
 #include <gtest/gtest.h>
 
 #include "swept_study.h"

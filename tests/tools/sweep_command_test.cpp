@@ -40,7 +40,7 @@ TEST(Sweep, WorkersPartsAndBreaksChangeNoByte) {
   EXPECT_EQ(files.results("parts"), all);
 }
 
-// 12 times at any moment of a run, of its start and of what it does at its end; 100 times with
+// Killed 12 times at any moment of a run, its start and its end; 100 times with
 // WHIRL_TWIN_EXTREMES=full.
 TEST(Sweep, KilledAnyTimeItGoesOnAndLosesNothing) {
   const StudyFiles files;
@@ -145,7 +145,7 @@ TEST(Sweep, WhatNoMachineCanRunIsRefusedAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(2));
 }
 
-// Where nothing looks for the signal, in one long step of the work, the program ends all the same.
+// If the signal is not polled, in one long step of the work, the program ends all the same.
 TEST(Sweep, EndsWithinASecondOfASignal) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const StudyFiles files(R"(
@@ -259,7 +259,7 @@ TEST(Sweep, WhatCannotBeWrittenIsSaidAndWhatWasFinishedStays) {
   EXPECT_EQ(files.results("full"), files.results("whole"));
 }
 
-/// A study swept on a file system of its own, of which nobody else knows.
+/// A study swept on a private file system, mounted in a namespace of the test.
 class SweepOnADisk : public testing::Test {
  protected:
   void SetUp() override {
@@ -275,10 +275,10 @@ class SweepOnADisk : public testing::Test {
         std::system(("unshare --mount --map-root-user bash -c '" + commands + "'").c_str());
     return WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
   }
-  /// On a disk made with `options` so much is done; then it becomes one with others, and a sweep
-  /// says why it cannot write, and with what status; then one that has room for all of it.
+  /// On a disk mounted with `options` a part is done; then it is remounted with others, and a sweep
+  /// reports why it cannot write, and the exit status; then with enough space for all of it.
   void expectRefusedThenWhole(const std::string& options, const std::string& before,
-                              const std::string& refusing, const std::string& refusal,
+                              const std::string& refusing, const std::string& inputError,
                               const std::string& roomy) {
     const std::string status = files_.file("status");
     const std::string said = files_.file("said");
@@ -291,7 +291,7 @@ class SweepOnADisk : public testing::Test {
               0);
     EXPECT_EQ(contentsOf(status), "1\n");
     EXPECT_NE(
-        contentsOf(said).find("cannot be written: " + refusal + "; the previous file is kept"),
+        contentsOf(said).find("cannot be written: " + inputError + "; the previous file is kept"),
         std::string::npos)
         << contentsOf(said);
     EXPECT_EQ(files_.results("after"), files_.results("whole"));
@@ -302,7 +302,7 @@ class SweepOnADisk : public testing::Test {
   std::string sweep_ = WHIRL_TWIN_PROGRAM " sweep " + files_.study + " --output " + disk_ + "/r ";
 };
 
-// Of 64 kB, which has room for some of the 30 blocks; then it grows.
+// Of 64 kB, with space for some of the 30 blocks; then it grows.
 TEST_F(SweepOnADisk, ThatIsFullItSaysSoAndWhatWasFinishedStays) {
   expectRefusedThenWhole("size=64k", "true", "size=64k", "No space left on device", "size=16m");
   int done = 0;

@@ -11,7 +11,7 @@
 namespace whirl_twin {
 namespace sweep_ranks_test {
 
-/// Starts `mpirun -n 4 twin ...` as the leader of a process group of its own.
+/// Starts `mpirun -n 4 twin ...` as the leader of a new process group.
 pid_t startRanks(const std::vector<std::string>& arguments, const std::string& out,
                  const std::string& err) {
   std::vector<std::string> words{
@@ -41,7 +41,7 @@ struct Ranks : StudyFiles {
   }
 };
 
-/// The processes that are children of one, and what they are.
+/// The child processes of a process, with their names.
 std::vector<pid_t> childrenOf(pid_t parent) {
   std::vector<pid_t> children;
   std::istringstream list(contentsOf("/proc/" + std::to_string(parent) + "/task/" +
@@ -64,7 +64,7 @@ TEST(SweepRanks, AreOneRunToTheByte) {
   const Ending threads = files.run(files.command("threads", {"--workers", "3"}));
   EXPECT_EQ(threads.status, 0) << threads.err;
   EXPECT_EQ(files.results("threads"), files.results("alone"));
-  const Ending again = files.run(files.command("threads"));  // nothing is left to be done
+  const Ending again = files.run(files.command("threads"));  // nothing remains to be done
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(again.out, alone.out);
 }
@@ -84,7 +84,7 @@ TEST(SweepRanks, WhatCannotBeMeantIsSaidOnce) {
   EXPECT_FALSE(std::filesystem::exists(files.file("r")));
 }
 
-// A rank that is killed ends the job; typed again, the command goes on. 3 times; 100 times with
+// A rank that is killed ends the job; when repeated, the command resumes. 3 times; 100 times with
 // WHIRL_TWIN_EXTREMES=full.
 TEST(SweepRanks, ARankThatIsKilledCostsNoRow) {
   const Ranks files;

@@ -1,4 +1,4 @@
-// Studies of one rotor, in a folder that is gone when the test is over.
+// Studies of one rotor, in a temporary folder.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ systems:
 drives: {shaft: {speed: 90.0}}
 )";
 
-/// A study of 300 points in 30 blocks, one in ten of which is refused.
+/// A study of 300 points in 30 blocks, one in ten of which is rejected.
 inline const std::string kStudyOfBlocks = R"(
 study: {scene: scene.yaml, seed: 3, block: 10}
 vary:

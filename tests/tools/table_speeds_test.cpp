@@ -1,5 +1,5 @@
-// What commands say of a rotor beyond the speeds of its bearing tables, where the nearest row is
-// held: it is marked. And the length and mass of a shaft whose elements are counted.
+// Results of a rotor beyond the speeds of its bearing tables, where the nearest row is used: they
+// are marked. And the length and mass of a shaft whose elements are counted.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +59,7 @@ TEST(TableSpeeds, MarkCriticalSpeedsBeyond) {
   EXPECT_NEAR(beyond[1], 1505.8, 0.05);
 }
 
-// Below the first row as above the last, in whatever looks at speeds.
+// Below the first row as above the last, in every command with a speed.
 TEST(TableSpeeds, MarkEveryResultBeyond) {
   const TemporaryDirectory folder;
   const std::string scene = folder.write("scene.yaml", kTabulated);
@@ -99,7 +99,7 @@ TEST(TableSpeeds, AreLeftByARunUpWithAWarning) {
   const Ending run = twin({"simulate", scene, "--duration", "3", "--output", log});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.err.find("outside the tables"), std::string::npos) << run.err;
-  // Nothing is known of critical speeds there: none is an alarm.
+  // No critical speeds are known there: none raises an alarm.
   const auto alerts = twin({"monitor", scene, log, "--json"}).json()["alerts"];
   for (const auto& alert : alerts) {
     EXPECT_LT(alert["raised"].get<double>(), 1.485) << alert;
@@ -157,8 +157,8 @@ TEST(FilmSpeeds, AreLeftWithAWarningWhereTheFilmsNeverCarry) {
   EXPECT_NE(slow.out.find("outside the film range"), std::string::npos) << slow.out;
 }
 
-// A motor takes the shaft to where its torque is its drag, T = 8 - 0.02 w: 400 rad/s, beyond the
-// tables. What it finds there is marked.
+// A motor brings the shaft to the speed where its torque equals its drag, T = 8 - 0.02 w: 400
+// rad/s, beyond the tables. Results there are marked.
 TEST(TableSpeeds, AreLeftByAMotorWithAWarning) {
   const TemporaryDirectory folder;
   std::string text = kTabulated;

@@ -1,4 +1,4 @@
-// twin tradeoff: rows that a reader can trust, and files only when they are complete.
+// twin tradeoff: reliable rows, and files only when they are complete.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ TEST(Tradeoff, ErrorsFallWithTheOrderAndTheRecommendedRowKeepsTheTolerance) {
           "real_time_factor", "energy_drift", "stable", "pareto"}) {
       EXPECT_TRUE(row.contains(key)) << key;
     }
-    // [ns] a step, in parts of the step.
+    // [ns] per step, relative to the step.
     const double cpu = 1e-9 * row["ns_per_step"].get<double>() / row["step"].get<double>();
     EXPECT_NEAR(row["cpu_per_simulated_second"].get<double>(), cpu, 1e-9 * cpu);
     rows[row["system"].get<std::string>() + "/" + row["integrator"].get<std::string>()].push_back(
@@ -121,7 +121,7 @@ TEST(Tradeoff, DrawsEachMethodInAColourOfItsOwnAndNamesItOnce) {
     EXPECT_EQ(std::distance(std::sregex_iterator(words.begin(), words.end(), name), {}), 1)
         << method;
   }
-  std::set<std::string> colours;  // of dots: what they are filled with
+  std::set<std::string> colours;  // fill colours of the dots
   const std::regex dot("fill:(rgb\\([^)]*\\));fill-opacity:1;stroke-width:1;");
   for (auto it = std::sregex_iterator(picture.begin(), picture.end(), dot);
        it != std::sregex_iterator(); ++it) {

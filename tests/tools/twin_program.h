@@ -1,4 +1,4 @@
-// Runs the built `twin` as a user does, and catches what it prints.
+// Runs the built `twin` like a user, and captures its output.
 #pragma once
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
-// The adapters of examples/acquisition: of a file that grows while they read it every row arrives
-// once, with its instant, and so does every row of a pipe.
+// The adapters of examples/acquisition: every row of a file that grows during reading arrives once,
+// with its instant, and so does every row of a pipe.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -48,8 +48,7 @@ std::vector<Row> allRows() {
   return rows;
 }
 
-/// As a program writes it: with a value that is none, one that is missing, and now and then a row
-/// twice.
+/// As a program writes it: with an invalid value, a missing one, and now and then a duplicate row.
 std::string textOf(const Row& row, int k) {
   char text[200];
   std::snprintf(text, sizeof(text), "%.17g", row.value[1]);  // or "nan"
@@ -104,7 +103,7 @@ void take(const state::Measurement& block, std::vector<Row>& rows) {
   }
 }
 
-/// What a log holds; its blocks are counted without a hole.
+/// The contents of a log; its blocks are numbered without a gap.
 std::vector<Row> rowsOf(const std::string& path) {
   std::vector<Row> rows;
   lcm::LogFile log(path, "r");
@@ -121,7 +120,7 @@ std::vector<Row> rowsOf(const std::string& path) {
   return rows;
 }
 
-/// What the Python adapter prints, a block a line.
+/// The output of the Python adapter, one block per line.
 std::vector<Row> rowsOfJson(const std::string& path) {
   std::vector<Row> rows;
   std::ifstream lines(path);
@@ -146,7 +145,7 @@ std::vector<Row> rowsOfJson(const std::string& path) {
   return rows;
 }
 
-/// [s] that a file may stand still for the adapters.
+/// [s] without growth of a file after which the adapters end.
 const std::string kQuiet = "2.5";
 const std::string kPython = "python3 " WHIRL_TWIN_SOURCE "/examples/acquisition/csv_to_ros.py ";
 

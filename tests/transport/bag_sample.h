@@ -1,5 +1,5 @@
-// Bags as rosbag writes them (format 2.0), for as long as a test needs them, of messages that ROS
-// itself has put into bytes.
+// Bags in the format of rosbag (2.0), in temporary files of a test, with messages serialized by ROS
+// itself.
 #pragma once
 
 #include <ros/serialization.h>
@@ -40,7 +40,7 @@ class BagSample {
                      data);
   }
 
-  /// complete: else as a recording that was broken off, whose chunk says that it is empty.
+  /// complete: else as an aborted recording, whose chunk is marked as empty.
   Bytes bytes(bool complete = true) const {
     std::string bag =
         "#ROSBAG V2.0\n" + record({op(3), "index_pos=" + little(0, 8), "conn_count=" + little(0, 4),

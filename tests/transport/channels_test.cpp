@@ -60,7 +60,7 @@ TEST(Channels, OfATwinInANamespaceBeginWithIt) {
   EXPECT_FALSE(parseChannel("MACHINE_ROTOR_WHIRL"));
   EXPECT_NO_THROW(requireLcmPrefix("MACHINE_"));
   for (const std::string prefix : {"", "_", "2_", "A B_", "A.*", "TWIN-"}) {
-    EXPECT_THROW(requireLcmPrefix(prefix), Refusal) << prefix;
+    EXPECT_THROW(requireLcmPrefix(prefix), InputError) << prefix;
   }
 }
 
@@ -81,7 +81,7 @@ TEST(Channels, OfTheLongestNameFitLcm) {
   EXPECT_LE(channelName(state::EnsembleState::kKind, longest).size(), 63u);
   EXPECT_NO_THROW(requireChannelFits(channelName(state::StabilityMargin::kKind, longest)));
   EXPECT_THROW(requireChannelFits(channelName(state::StabilityMargin::kKind, longest, "MACHINE_")),
-               Refusal);
+               InputError);
 }
 
 }  // namespace channels_test

@@ -1,4 +1,4 @@
-// A short recording of a twin, and log files for as long as a test needs them.
+// A short recording of a twin, and temporary log files.
 #pragma once
 
 #include <unistd.h>

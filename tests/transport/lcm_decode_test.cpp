@@ -41,7 +41,7 @@ TEST(LcmDecode, BringsEveryBitBackFromTheWire) {
   }
 }
 
-/// A margin and a pendulum whose payloads have arrays and strings in them.
+/// A margin and a pendulum whose payloads contain arrays and strings.
 state::PendulumState doublePendulum() {
   state::PendulumState pendulum;
   pendulum.system = "arm";
@@ -64,7 +64,8 @@ void expectEveryCutRejected(const State& state) {
   EXPECT_THROW(decoded(channelOf(state), longer), RejectedMessage);
 }
 
-// A margin of before its later fields: what is there stays, what is not is said not to be known.
+// A margin in a format without its later fields: present fields are kept, absent ones are marked
+// unknown.
 TEST(LcmDecode, PlaysMarginsInTheirEarlierForms) {
   StateSamples samples(5);
   for (const EarlierForm& form : kEarlierForms<state::StabilityMargin>) {
@@ -144,7 +145,7 @@ TEST(LcmDecode, RejectsAnotherTypeAndAnotherSystemsChannel) {
   EXPECT_THROW(decoded("TWIN_ARM_PENDULUM", other_type), RejectedMessage);
 }
 
-/// Hits the payload of a state in a few places behind the fingerprint.
+/// Corrupts the payload of a state in a few places after the fingerprint.
 template <class State>
 void expectDamageSurvived(const State& sent, std::mt19937& random) {
   auto payload = encoded(sent);

@@ -1,5 +1,5 @@
-// A damaged log is never taken for a sound one, and never hangs or crashes its reader. The measured
-// values themselves are without a checksum; everything that holds them together is watched.
+// A corrupt log is never accepted as a valid one, and never hangs or crashes its reader. The
+// measured values themselves have no checksum; all framing data around them are checked.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace lcm_event_log_damage_test {
 
 constexpr std::size_t kHeaderSize = 28;
 
-/// An event of the sound log, found without the reader under test.
+/// An event of the valid log, found without the reader under test.
 struct Extent {
   std::size_t begin;
   std::size_t channel;
@@ -90,7 +90,7 @@ std::vector<bool> watchedBytes(const Bytes& log) {
     } else if (channel == "TWIN_SHAFT_DRIVE") {
       markMeasured(layoutOf<state::DriveState>(), log, extent.payload, watched);
     } else {
-      // What a monitor says is not a state: only its type is watched here.
+      // Messages of a monitor are not states: only their type is checked here.
       std::fill(watched.begin() + static_cast<std::ptrdiff_t>(extent.payload) + 8,
                 watched.begin() + static_cast<std::ptrdiff_t>(extent.end), false);
     }
@@ -168,7 +168,7 @@ TEST(DamagedEventLog, IsNoticedAfterBytesWereOverwrittenLostOrAdded) {
       for (std::size_t i = 0; i < log.size(); ++i) {
         must_be_noticed = must_be_noticed || (watched[i] && log[i] != sound[i]);
       }
-      // An event whose channel and type have both gone is another program's.
+      // An event with corrupt channel and type is counted as another program's.
       const auto changed = [&](std::size_t begin, std::size_t end) {
         return !std::equal(log.begin() + static_cast<std::ptrdiff_t>(begin),
                            log.begin() + static_cast<std::ptrdiff_t>(end),
@@ -213,7 +213,7 @@ TEST(DamagedEventLog, IsReadOnAfterTheDamage) {
   const auto summary = summaryOf(log);
   EXPECT_FALSE(summary.intact());
   EXPECT_FALSE(summary.truncated);
-  // The event before a damaged sync word goes with it: nothing vouches for its length.
+  // The event before a corrupt sync word is lost with it: its length cannot be verified.
   EXPECT_EQ(summary.events, 302u - 4u);
   EXPECT_EQ(summary.defect_count, 3u);
   ASSERT_EQ(summary.defects.size(), 3u);

@@ -77,7 +77,7 @@ TEST(EventLog, SaysWhereStatesAreMissing) {
   }
   writer.finish();
   const auto summary = readEventLog(log.path());
-  EXPECT_TRUE(summary.intact());  // nothing is damaged, but
+  EXPECT_TRUE(summary.intact());  // nothing is corrupt, but
   EXPECT_FALSE(summary.continuous());
   const auto& whirl = channelIn(summary, "TWIN_ROTOR_WHIRL");
   EXPECT_EQ(whirl.gaps, 1u);
@@ -218,7 +218,7 @@ TEST(EventLog, MustBeAFileThatCanBeRead) {
   EXPECT_THROW(readEventLog("/tmp/whirl_twin_no_such_file.lcmlog"), std::runtime_error);
   EXPECT_THROW(readEventLog("/tmp"), std::runtime_error);
   EXPECT_THROW(readEventLog("/dev/zero"), std::runtime_error);
-  const TemporaryLog pipe;  // opening a pipe nobody writes into must not wait
+  const TemporaryLog pipe;  // opening a pipe without a writer must not wait
   ASSERT_EQ(::mkfifo(pipe.path().c_str(), 0600), 0);
   EXPECT_THROW(readEventLog(pipe.path()), std::runtime_error);
 }

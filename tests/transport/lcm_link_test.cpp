@@ -1,4 +1,4 @@
-// Publisher and receiver joined by memq://, LCM's link within a process: no network is touched.
+// Publisher and receiver connected by memq://, LCM's link within a process: without a network.
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -49,7 +49,7 @@ TEST_F(LcmLink, CarriesEveryKindInOrder) {
   EXPECT_EQ(receiver.lost() + receiver.rejected(), 0u);
 }
 
-// Whatever the routing table says, now or later (liblcm itself goes by it).
+// Whatever the routing table, now or later (liblcm itself uses it).
 TEST_F(LcmLink, WithATtlOf0MulticastIsSentByTheLoopbackInterface) {
   std::shared_ptr<lcm::LCM> multicast;
   try {
@@ -82,7 +82,7 @@ TEST_F(LcmLink, TwinsWithOtherPrefixesDoNotHearEachOther) {
   machine.publish(whirlAt(1));
   machine.publish(alertAt(1));
   publisher_.publish(whirlAt(2));
-  of_machine.receive(kNow);  // hands out to all that listen to this LCM
+  of_machine.receive(kNow);  // dispatches to all subscribers of this LCM
   EXPECT_EQ(of_machine.received(), 2u);
   EXPECT_EQ(of_machine.channels().count("MACHINE_ROTOR_WHIRL"), 1u);
   EXPECT_EQ(of_twin.received(), 1u);
@@ -90,7 +90,7 @@ TEST_F(LcmLink, TwinsWithOtherPrefixesDoNotHearEachOther) {
 }
 
 TEST_F(LcmLink, KeepsAllOfALongQueue) {
-  // liblcm keeps 30 messages of a subscription unless told otherwise.
+  // liblcm queues 30 messages of a subscription by default.
   auto receiver = receiverOf(kindsOf<state::WhirlState>());
   state::WhirlState whirl;
   whirl.system = "rotor";
@@ -153,7 +153,7 @@ TEST_F(LcmLink, RecordsEveryEventOfTheWantedChannels) {
     lcm_->publish("CAMERA", other, sizeof(other));
     recorder.record(kNow, 10000);
     EXPECT_EQ(recorder.recorded(), 4000u);
-    // What has been recorded is in the file even if nobody ends the recorder properly.
+    // Recorded data are in the file even if the recorder is not closed properly.
     EXPECT_EQ(readEventLog(log.path()).events, 4000u);
   }
   const auto summary = readEventLog(log.path());

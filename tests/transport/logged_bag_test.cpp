@@ -1,5 +1,5 @@
-// A rosbag says what an LCM log of the same run says; of one that is damaged or was broken off,
-// what can be read is, and the rest is counted. (Bags that rosbag itself has recorded:
+// A rosbag has the content of an LCM log of the same run; from a corrupt or aborted one all
+// readable messages are read, and the others are counted. (Bags that rosbag itself has recorded:
 // tests/ros/bag.test.)
 #include <gtest/gtest.h>
 
@@ -127,7 +127,7 @@ TEST(LoggedBag, JointStatesAreMeasurements) {
   for (const char* topic : {"/machine/encoder", "/encoder"}) {
     BagSample bag;
     bag.write(topic, 0, joints);
-    bag.write("/twin/arm/joint_states", 0, joints);  // the twin's own are none of the machine's
+    bag.write("/twin/arm/joint_states", 0, joints);  // the twin's own messages are not the plant's
     const Read found = read(bag.bytes());
     ASSERT_EQ(found.messages.size(), 1u) << topic;
     const auto& measured = std::get<state::Measurement>(found.messages.front());
@@ -140,7 +140,7 @@ TEST(LoggedBag, JointStatesAreMeasurements) {
   }
 }
 
-/// A recorder that was killed has written no index, and of its last chunk not how long it is.
+/// A recorder that was killed has written no index, and no length of its last chunk.
 TEST(LoggedBag, ARecordingThatWasBrokenOffIsReadAsFarAsItGoes) {
   const Bytes whole = blocks(100).bytes(false);
   EXPECT_EQ(read(whole).log.taken, 100u);
@@ -170,7 +170,7 @@ TEST(LoggedBag, DamageIsSaidWithItsPlaceAndTheNextChunkIsRead) {
 
 TEST(LoggedBag, WhatIsNoBagOfTodayIsRefused) {
   for (const char* text : {"#ROSBAG V1.2\n", "#ROSBAG V"}) {
-    EXPECT_THROW(read(Bytes(text, text + std::strlen(text))), Refusal) << text;
+    EXPECT_THROW(read(Bytes(text, text + std::strlen(text))), InputError) << text;
   }
 }
 
@@ -204,7 +204,7 @@ TEST(RosLayout, GoesByTheDefinitionThatTheBagHas) {
   }
 }
 
-/// 3,000 damaged bags; 100,000 with WHIRL_TWIN_EXTREMES=full.
+/// 3,000 corrupt bags; 100,000 with WHIRL_TWIN_EXTREMES=full.
 TEST(LoggedBag, WhateverStandsInAFileIsReadToItsEnd) {
   const char* const length = std::getenv("WHIRL_TWIN_EXTREMES");
   const int bags = length != nullptr && std::strcmp(length, "full") == 0 ? 100'000 : 3'000;
@@ -216,7 +216,7 @@ TEST(LoggedBag, WhateverStandsInAFileIsReadToItsEnd) {
   for (int k = 0; k < bags; ++k) {
     Bytes bytes = sound[k % 2];
     for (std::size_t times = 1 + random() % 4; times > 0; --times) {
-      // Mostly behind the padding of the header, where there is something to damage.
+      // Mostly after the padding of the header, where the data are.
       const std::size_t at =
           random() % 8 == 0 ? random() % bytes.size() : 4100 + random() % (bytes.size() - 4100);
       const std::uint32_t words[] = {0,          1,          0x7fffffff,
@@ -229,7 +229,7 @@ TEST(LoggedBag, WhateverStandsInAFileIsReadToItsEnd) {
     }
     try {
       EXPECT_LE(read(bytes).log.taken, 22u);
-    } catch (const Refusal& why) {  // its first line
+    } catch (const InputError& why) {  // its first line
       EXPECT_NE(std::string(why.what()).find("must be a rosbag"), std::string::npos);
     }
   }

@@ -1,5 +1,5 @@
-// Whatever bytes arrive as any of the LCM types of the twin: a message that encodes to the same
-// bytes again, or a refusal in words; never a read or an allocation beyond the payload.
+// Arbitrary bytes decoded as any of the LCM types of the twin: a message that encodes to the same
+// bytes again, or an error text; never a read or an allocation beyond the payload.
 #include "transport/payload_layout.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ std::vector<Door> everyDoor() {
   return doors;
 }
 
-/// False if it is refused.
+/// False if it is rejected.
 bool taken(const Door& door, const Payload& payload) {
   try {
     // Exactly its own memory, so that a sanitizer sees a byte beyond.
@@ -95,7 +95,7 @@ TEST(PayloadLayout, ACutOrLongerPayloadOfEveryTypeIsRefused) {
     longer.resize(longer.size() + 4, 0);
     EXPECT_FALSE(taken(door, longer));
     Payload endless = door.whole;
-    endless.resize(kLongestPayload + 1, 0);
+    endless.resize(kMaxLcmPayload + 1, 0);
     EXPECT_FALSE(taken(door, endless));
   }
 }
@@ -110,7 +110,7 @@ TEST(PayloadLayout, AnotherFingerprintIsRefused) {
   }
 }
 
-// Lengths are somewhere among the words: each one becomes each length that a decoder has believed.
+// Lengths are somewhere among the words: each one is replaced by each length accepted by a decoder.
 TEST(PayloadLayout, NoLengthOfAnyTypeIsBelieved) {
   for (const Door& door : everyDoor()) {
     for (std::size_t at = 8; at + 4 <= door.whole.size(); ++at) {
@@ -148,8 +148,8 @@ TEST(RefusedPayloads, AreCountedByChannelWithinBounds) {
   EXPECT_EQ(refused.total(), 2000u);
   EXPECT_EQ(refused.channels().at("TWIN_0"), 1001u);
   EXPECT_EQ(refused.channels().at(RefusedPayloads::kFurther),
-            1000u - RefusedPayloads::kMostChannels);
-  EXPECT_EQ(refused.channels().size(), RefusedPayloads::kMostChannels + 1);
+            1000u - RefusedPayloads::kMaxChannels);
+  EXPECT_EQ(refused.channels().size(), RefusedPayloads::kMaxChannels + 1);
   EXPECT_EQ(refused.last(), "TWIN_0: too long");
 }
 

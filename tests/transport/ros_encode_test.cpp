@@ -1,4 +1,4 @@
-// What is written for ROS's tools without ROS is what ROS itself would write, to the byte.
+// Files written for ROS's tools without ROS are byte-identical to those that ROS itself writes.
 #include "transport/ros_encode.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(RosEncode, AlertsBecomeTheListOfThoseThatStand) {
   mild.raised = false;
   EXPECT_EQ(encoded(encoder, mild), serialized(toRos(std::vector{grave}, mild.stamp)));
   mild.raised = true;
-  mild.time = 0.5;  // the twin begins anew: what stood before does not
+  mild.time = 0.5;  // the twin restarts: previous alerts are void
   EXPECT_EQ(encoded(encoder, mild), serialized(toRos(std::vector{mild}, mild.stamp)));
 }
 

@@ -1,5 +1,4 @@
-// States full of everything a double can be, and a way to see whether two of them agree bit for
-// bit.
+// States with all kinds of double values, and a bit-exact comparison of two of them.
 #pragma once
 
 #include <cmath>
@@ -234,13 +233,13 @@ class StateSamples {
     return s;
   }
 
-  /// visit(sample) with one of every kind, so that none can be forgotten.
+  /// visit(sample) with one of every kind, so that none can be omitted.
   template <class Visit>
   void each(Visit&& visit) {
     eachKind([&](auto kind) { visit(of(kind)); });
   }
 
-  /// Any 64 bits, and often those that get lost most easily.
+  /// Any 64 bits, often the values most easily lost.
   double number() {
     static const double kDelicate[] = {-0.0,
                                        0.0,
@@ -313,7 +312,7 @@ class StateSamples {
   void put(bool& field) { field = below(2) == 0; }
   void put(double& field) { field = number(); }
   void put(std::int64_t& field) { field = static_cast<std::int64_t>(random_()); }
-  void put(std::uint64_t& field) { field = random_() >> 1; }  // as much as LCM can say
+  void put(std::uint64_t& field) { field = random_() >> 1; }  // the maximum that LCM can represent
   void put(std::int32_t& field) { field = static_cast<std::int32_t>(random_()); }
   void put(std::uint32_t& field) { field = static_cast<std::uint32_t>(random_()); }
   void put(std::string& field) { field = "name_" + std::to_string(below(1000)); }

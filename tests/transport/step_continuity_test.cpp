@@ -88,7 +88,7 @@ TEST(StepContinuity, AStateTwiceOrMissingIsNotLate) {
   EXPECT_EQ(continuity.late() + continuity.backward(), 0u);
 }
 
-// One state from long before is no reset; states that go on from there are.
+// One state from long before is no reset; states that continue from there are.
 TEST(StepContinuity, TellsAStragglerFromATwinThatBeganAnew) {
   StepContinuity continuity;
   for (std::int64_t k = 0; k < 500; ++k) {

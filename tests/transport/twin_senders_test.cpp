@@ -1,4 +1,5 @@
-// Two twins on the same channels take turns there; one that takes another's place does not.
+// Duplicate publishers: two twins that alternate on the same channels are detected; a twin that
+// replaces another is not one.
 #include "transport/twin_senders.h"
 
 #include <gtest/gtest.h>

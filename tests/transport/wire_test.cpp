@@ -1,6 +1,6 @@
-// What is on the wire stays what it was: reference/wire.txt holds samples of every kind as they
-// were encoded before the fields of a message were listed once, and logs recorded then are still
-// about. Fields that came since come after those; the fingerprint then is that of an earlier form.
+// The wire format is stable: reference/wire.txt holds samples of every kind in their original
+// encoding, and logs with it still exist. Later fields are appended; with them the fingerprint of
+// the original belongs to an earlier form.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// A twin that is put back into the state that another was saved in goes on as that one does, bit
-// for bit: every shipped scene, with controllers, ensembles, commands and parameters changed live,
-// and what is told of them. Another file than a whole one of the same scene is refused.
+// A twin restored from a checkpoint of another continues bit-identically: every shipped scene, with
+// controllers, ensembles, commands and parameters changed live, and their published data. Any file
+// other than a complete one of the same scene is rejected.
 #include "twin/checkpoint.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@
 #include "../scene/scenes.h"
 #include "controllers/controller_entry.h"
 #include "messages/checksum.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 #include "running_twin.h"
 
 namespace whirl_twin {
@@ -55,7 +55,7 @@ std::vector<double> toldBy(const Observer& observer) {
   return told;
 }
 
-/// A twin, and who observes each of its steps.
+/// A twin, and an observer of each of its steps.
 struct Observed {
   explicit Observed(const Scene& scene) : twin(scene), observer((twin.buildEnsembles(), twin)) {}
 
@@ -72,9 +72,9 @@ struct Observed {
     checkpoint.observer = imageOf(observer);
     return checkpoint;
   }
-  void putBack(const Checkpoint& checkpoint) {
-    whirl_twin::putBack(checkpoint, twin, "test");
-    whirl_twin::putBack(checkpoint, observer, "test");
+  void restore(const Checkpoint& checkpoint) {
+    whirl_twin::restore(checkpoint, twin, "test");
+    whirl_twin::restore(checkpoint, observer, "test");
   }
   std::vector<double> members() {
     std::vector<double> all;
@@ -111,19 +111,19 @@ TEST_P(EveryScene, GoesOnToTheBit) {
   constexpr int kSteps = 400;
   Observed unbroken(scene());
   Observed resumed(scene());
-  resumed.step(7);  // what it was before does not matter
+  resumed.step(7);  // its previous state does not matter
   for (const int before : {1, 73, 326}) {
     unbroken.step(before);
     const Checkpoint saved = checkpointOf(bytesOf(unbroken.saved()), "test");
-    resumed.putBack(saved);
+    resumed.restore(saved);
     ASSERT_TRUE(same(recordOf(unbroken.twin), recordOf(resumed.twin))) << before;
     ASSERT_TRUE(same(toldBy(unbroken.observer), toldBy(resumed.observer))) << before;
-    // One goes on; the other has gone elsewhere when it is put back the next time.
+    // One continues; the other has a different state when it is restored the next time.
     for (int i = 0; i < kSteps; ++i) {
       resumed.step(1);
     }
     Observed once_more(scene());
-    once_more.putBack(saved);
+    once_more.restore(saved);
     for (int i = 0; i < kSteps; ++i) {
       unbroken.step(1);
       once_more.step(1);
@@ -162,7 +162,7 @@ controllers:
          parameters: {kp: 20.0, ki: 100.0, kd: 1.0, setpoint: 0.02}}
 )";
 
-/// Whose loop is run by hand, changed live, saved and resumed.
+/// With a manually run loop, live changes, checkpoint and resume.
 class LiveCheckpoint : public testing::Test {
  protected:
   static Checkpoint saved(Running& running) {
@@ -176,7 +176,7 @@ class LiveCheckpoint : public testing::Test {
     EXPECT_TRUE(takeCheckpoint(running.live, running.parameters, wait, checkpoint));
     return checkpointOf(bytesOf(checkpoint), "test");
   }
-  /// The records of the steps behind one.
+  /// The records of the steps after one.
   static std::vector<std::vector<double>> behind(std::int64_t step, Running& running) {
     std::vector<std::vector<double>> all;
     while (running.live.pop(running.record.data())) {
@@ -209,7 +209,7 @@ class LiveCheckpoint : public testing::Test {
     EXPECT_TRUE(running.parameters.continueRamps().empty());
     running.cycle(60);
   }
-  static void goOn(Running& running) {
+  static void resume(Running& running) {
     for (int i = 0; i < 15; ++i) {
       running.cycle(100);
       EXPECT_TRUE(running.parameters.continueRamps().empty());
@@ -224,12 +224,12 @@ TEST_F(LiveCheckpoint, WhatWasChangedGoesOnToTheBit) {
   change(unbroken);
   const Checkpoint saved = this->saved(unbroken);
   Running resumed(scene);
-  resume(saved, resumed.live, resumed.parameters, "test");
+  whirl_twin::resume(saved, resumed.live, resumed.parameters, "test");
   EXPECT_EQ(resumed.live.stepCount(), saved.step);
-  resumed.cycle(2);  // tells where it is, and goes on as the other one did when it was saved
+  resumed.cycle(2);  // publishes its state, and continues like the other one after the checkpoint
   ASSERT_EQ(resumed.live.stepCount(), unbroken.live.stepCount());
-  goOn(unbroken);
-  goOn(resumed);
+  resume(unbroken);
+  resume(resumed);
   const auto expected = behind(saved.step, unbroken);
   const auto found = behind(saved.step, resumed);
   ASSERT_GT(expected.size(), 1500U);
@@ -237,7 +237,7 @@ TEST_F(LiveCheckpoint, WhatWasChangedGoesOnToTheBit) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     ASSERT_TRUE(same(found[i], expected[i])) << i << " records behind";
   }
-  // What is told of parameters goes on, too, and a reset brings the scene's back to both.
+  // The published parameters continue, too, and a reset restores the scene's values in both.
   Observer observer(resumed.live.twin(), resumed.live.generations());
   EXPECT_EQ(observer.parameters(0).values, [&] {
     Observer other(unbroken.live.twin(), unbroken.live.generations());
@@ -304,25 +304,25 @@ TEST_F(LiveCheckpoint, AStateOfAnotherTwinIsRefused) {
   const Checkpoint saved = this->saved(running);
   Running other(sceneOf(kThreeSystems));
   try {
-    resume(saved, other.live, other.parameters, "run.checkpoint");
+    whirl_twin::resume(saved, other.live, other.parameters, "run.checkpoint");
     FAIL() << "it was taken";
-  } catch (const Refusal& refusal) {
-    EXPECT_EQ(std::string(refusal.what()).find("run.checkpoint: "), 0U) << refusal.what();
+  } catch (const InputError& inputError) {
+    EXPECT_EQ(std::string(inputError.what()).find("run.checkpoint: "), 0U) << inputError.what();
   }
 }
 
-/// Puts a damaged state into a twin, and takes a few steps where it is not refused.
+/// Restores a corrupt state into a twin, and takes a few steps if it is not rejected.
 void tryDamaged(const Checkpoint& damaged, Observed& observed) {
   try {
-    observed.putBack(damaged);
+    observed.restore(damaged);
     observed.step(3);
-  } catch (const Refusal&) {
+  } catch (const InputError&) {
   }
 }
 
-// Bytes of each number of a state with bits changed, behind a checksum that fits: refused, or
-// another state that a twin can be in; no crash, and no loop without end. In a process of its own.
-// Every byte with WHIRL_TWIN_EXTREMES=full.
+// States with changed bits in bytes of each number, with a matching checksum: rejected, or another
+// state that a twin can have; no crash, and no endless loop. In a separate process. Every byte with
+// WHIRL_TWIN_EXTREMES=full.
 TEST(ADamagedState, NeitherCrashesNorHangs) {
   std::vector<Scene> scenes{sceneOf(kChanged)};
   for (const char* const name : {"demo", "levitation", "sommerfeld"}) {
@@ -370,16 +370,16 @@ class File : public testing::Test {
     checkpoint.scene = sceneLines(YAML::Load(kThreeSystems), observed.twin);
     bytes = bytesOf(checkpoint);
   }
-  /// Why it is refused.
+  /// The error text.
   static std::string whyNot(const std::string& bytes) {
     try {
       checkpointOf(bytes, "run.checkpoint");
       return "";
-    } catch (const Refusal& refusal) {
-      return refusal.what();
+    } catch (const InputError& inputError) {
+      return inputError.what();
     }
   }
-  /// With another text in place of one, and a checksum that says so.
+  /// With one text replaced by another, and a matching checksum.
   std::string with(const std::string& text, const std::string& other) const {
     const std::size_t body = bytes.find('\n', bytes.find('\n') + 1) + 1;
     std::string rest = bytes.substr(body);
@@ -407,7 +407,7 @@ TEST_F(File, IsReadAsItWasWritten) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
   EXPECT_THROW(writeCheckpoint(folder / "none" / "run.checkpoint", bytes), RunFailure);
   EXPECT_THROW(writeCheckpoint(folder, bytes), RunFailure);
-  EXPECT_THROW(readCheckpoint(folder / "other"), Refusal);
+  EXPECT_THROW(readCheckpoint(folder / "other"), InputError);
   fs::remove_all(folder);
 }
 
@@ -455,8 +455,8 @@ TEST_F(File, OfAnotherSceneItIsRefusedByWhatIsOther) {
     try {
       requireScene(checkpoint, sceneLines(YAML::Load(yaml), twin), "run.checkpoint");
       return "";
-    } catch (const Refusal& refusal) {
-      return refusal.what();
+    } catch (const InputError& inputError) {
+      return inputError.what();
     }
   };
   std::string yaml = kThreeSystems;

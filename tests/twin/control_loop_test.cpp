@@ -1,4 +1,4 @@
-// Controllers of a running twin: sampled at instants of their own, late by their delay, held.
+// Controllers of a running twin: sampled at their own instants, delayed, with zero-order hold.
 #include "twin/control_loop.h"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ class Exactly {
  public:
   explicit Exactly(const Levitation& l) : l_(l) {}
 
-  /// Goes on to a time [ns], before what happens there.
+  /// Continues to a time [ns], before the events there.
   void goTo(std::int64_t time) {
     while (true) {
       const std::int64_t sample = instant(k_);
@@ -121,7 +121,7 @@ TEST_P(SampledLoop, GoesAsTheClosedSolutionFromInstantToInstant) {
     twin.step();
     exact.goTo(i * l.step);
     const Motion motion = motionOf(twin);
-    // Rounding of what has been, too: the motion decays.
+    // Rounding of earlier values included: the motion decays.
     largest = std::max({0.99L * largest, std::fabs(exact.x()), std::fabs(exact.v())});
     ASSERT_NEAR(motion.x, static_cast<double>(exact.x()), 1e-12 * static_cast<double>(largest))
         << "step " << i;
@@ -207,7 +207,7 @@ TEST(SampledLoop, ActsAsItsActuatorCan) {
   }
 }
 
-// What is within its limit it gives, to the last bit: rounding is no saturation.
+// A command within its limit is realized bit-identically: rounding is no saturation.
 TEST(SampledLoop, CountsOnlyWhatItsActuatorCannotGive) {
   Twin twin(levitated(Levitation{10'000'000, 100.0, 0},
                       ", sensor: {noise: 1.0e-5}, actuator: {limit: 100.0}"));
@@ -218,14 +218,16 @@ TEST(SampledLoop, CountsOnlyWhatItsActuatorCannotGive) {
   EXPECT_EQ(twin.control().controllers()[0].count().saturated, 0);
 }
 
-/// x'' = -k x + u behind a lag, under a PD law, off the steps and a fraction of a sample late.
+/// x'' = -k x + u behind a lag, with a PD controller, off the steps and delayed by a fraction of a
+/// sample.
 struct Lagged {
   double stiffness, kp, kd, bandwidth;
   int periods;  // of 7 samples and 3 steps
 };
 
-// What the twin runs and what its loop is judged by are one loop: from sample to sample the one
-// goes as the powers of the other's matrix, the state of the actuator's lag among theirs.
+// The loop that the twin runs and the one evaluated for stability are the same: from sample to
+// sample the former follows the powers of the latter's matrix, including the state of the
+// actuator's lag.
 TEST(SampledLoop, BehindALagGoesAsThePowersOfItsMatrix) {
   for (const Lagged& l : {Lagged{-1.0, 2.0, std::sqrt(2.0), 1.6, 500},
                           Lagged{1.0, 1.0e-3, 3.0e-3, 0.5, 14300}}) {  // 1e5 samples
@@ -316,8 +318,9 @@ double errorOf(const std::string& integrator, std::int64_t step, double bandwidt
   return std::fabs(angle(integrator, step) - angle("dormand_prince_8", 1'000'000));
 }
 
-// Instants inside a step are corners: a method keeps its order across them. Parts are as long as a
-// step at most, so the order shows where steps are short beside the 11 ms from sample to output.
+// Instants inside a step are breakpoints: a method keeps its order across them. Sub-steps are as
+// long as a step at most, so the order shows where steps are short relative to the 11 ms from
+// sample to output.
 TEST(SampledLoop, KeepsTheOrderOfAMethod) {
   for (const auto& [integrator, order] :
        std::map<std::string, double>{{"runge_kutta_4", 4.0},
@@ -332,8 +335,8 @@ TEST(SampledLoop, KeepsTheOrderOfAMethod) {
   }
 }
 
-// A rotor in a run-up, whose table over speed has a map for every part, and the same by a general
-// method: a bearing's stiffness that a controller gives.
+// A rotor in a run-up, whose table over speed has a map for every sub-step, and the same with a
+// general method: a bearing's stiffness provided by a controller.
 TEST(SampledLoop, OfARotorInARunUpGoesAsByAnotherMethod) {
   const auto rotor = [](const std::string& integrator, std::int64_t step) {
     return sceneOf(fmt::format(
@@ -359,8 +362,8 @@ TEST(SampledLoop, OfARotorInARunUpGoesAsByAnotherMethod) {
   EXPECT_LT(difference, 1e-7 * largest);
 }
 
-// Alone it would be beyond all numbers within the trial steps of a change: that tells nothing of
-// it.
+// Without its controller it would overflow within the trial steps of a change: such a trial
+// would be meaningless.
 TEST(SampledLoop, IsNotTriedWithoutItsControllers) {
   BuiltScene built = build(sceneOf(
       "{step: 0.001, systems: {s: {model: linear_system, parameters: {names: [x], mass: [[1.0]], "
@@ -371,7 +374,8 @@ TEST(SampledLoop, IsNotTriedWithoutItsControllers) {
   EXPECT_NE(whyItWouldStop(built, *built.systems[0], std::nullopt), "");
 }
 
-// Two systems tied by a controller: what one measures acts on the other, in the same parts.
+// Two systems coupled by a controller: it measures one and acts on the other, in the same
+// sub-steps.
 TEST(SampledLoop, TiesSystemsTogether) {
   const std::string mass =
       "{model: linear_system, integrator: exponential, parameters: {names: [x], mass: "
@@ -396,7 +400,7 @@ TEST(SampledLoop, TiesSystemsTogether) {
   EXPECT_LT(motionOf(tied, 0).x, -0.0008);
 }
 
-/// 2 s of a levitated mass whose outputs come when they do; x and its rate.
+/// 2 s of a levitated mass with jittering output instants; x and its rate.
 std::vector<double> withJitter(std::int64_t step, int resets = 0) {
   Twin twin(sceneOf(fmt::format(
       "{{step: {:.9f}, systems: {{s: {{model: linear_system, integrator: exponential, parameters: "
@@ -416,7 +420,7 @@ std::vector<double> withJitter(std::int64_t step, int resets = 0) {
   return motion;
 }
 
-// Each output is a corner where it falls: the exact step does not see how long a step is.
+// Each output is a breakpoint at its instant: the exact result does not depend on the step.
 TEST(ControlLoop, OutputsWithJitterActAtTheirInstants) {
   const std::vector<double> coarse = withJitter(4'000'000);
   const std::vector<double> fine = withJitter(500'000);

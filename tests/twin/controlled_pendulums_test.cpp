@@ -1,5 +1,5 @@
-// What the shipped scenes of controlled pendulums and engines say of themselves: swung up and
-// caught, held upright, carried without swing, held at speed.
+// The claims of the shipped scenes of controlled pendulums and engines: swung up and caught, held
+// upright, carried without swing, held at speed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -92,8 +92,8 @@ TEST(ControlledPendulums, StandUprightOnOneMotorEach) {
   EXPECT_GT(fastest, 1.0) << "it does not come to rest";
 }
 
-// What is left of the swing once the trolley stands. The shaper takes it away as far as the swing
-// is linear: at 4.6 degrees its period is longer by 4e-4.
+// The residual swing once the trolley has stopped. The shaper removes it as far as the swing is
+// linear: at 4.6 degrees its period is longer by 4e-4.
 TEST(ControlledPendulums, CarryALoadWithoutSwing) {
   Running run(shipped("crane"));
   run.runTo(15.0);

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 namespace durable_file_test {
@@ -34,7 +34,7 @@ class DurableFileTest : public testing::Test {
 };
 
 TEST_F(DurableFileTest, IsThereWhenItIsWholeAndLeavesNothingElse) {
-  const std::string text(3000000, 'x');  // more than it holds back
+  const std::string text(3000000, 'x');  // more than its buffer
   {
     DurableFile dropped(path_);
     dropped.add(text);
@@ -50,7 +50,7 @@ TEST_F(DurableFileTest, IsThereWhenItIsWholeAndLeavesNothingElse) {
   EXPECT_EQ(files(), 1U);
 }
 
-// Of two who write the same file.
+// Of two writers of the same file.
 TEST_F(DurableFileTest, TheFirstStaysWhereThatIsAskedFor) {
   {
     DurableFile first(path_);

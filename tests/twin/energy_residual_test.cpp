@@ -1,4 +1,4 @@
-// The energy audit holds: over ten seconds the Jacobi integral gains what the audited work says, to
+// Energy audit: over ten seconds the increase of the Jacobi integral equals the audited work, to
 // 1e-10 of the largest energy in play, for any parameters.
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ class EnergyResidual : public testing::TestWithParam<Audit> {
 TEST_P(EnergyResidual, IsBelowTheBound) {
   for (int draw = 0; draw < kDraws; ++draw) {
     Scene scene = sceneOf(kThreeSystems);
-    // Corners of the drive fall inside steps.
+    // Breakpoints of the drive fall inside steps.
     scene.drives[0].speed = between(-20.0, 20.0);
     scene.drives[0].profile = {{between(-20.0, 20.0), between(2.0, 5.0), between(3.0, 9.0), 0.5},
                                {between(-20.0, 20.0), between(2.0, 5.0), 0.0, 0.0}};

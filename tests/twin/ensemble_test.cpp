@@ -1,5 +1,4 @@
-// A system many times over: what is read, what is drawn, and that members are what they would be as
-// systems of their own.
+// Ensembles: reading, random draws, and that samples equal the same systems stepped alone.
 #include "twin/ensemble.h"
 
 #include <gtest/gtest.h>
@@ -212,7 +211,7 @@ TEST(EnsembleDraw, HasTheCorrelationsAskedFor) {
 }
 
 TEST(EnsembleScene, RefusesCorrelationsThatCannotBe) {
-  const auto refusal = [](const std::string& correlations) {
+  const auto inputError = [](const std::string& correlations) {
     return errorOf(rotorScene(
         "    count: 4\n    spread:\n      stiffness: {standard_deviation: 1}\n      mass: "
         "{standard_deviation: 0.1}\n      damping: {standard_deviation: 0.1}\n      eccentricity: "
@@ -220,25 +219,26 @@ TEST(EnsembleScene, RefusesCorrelationsThatCannotBe) {
         correlations + "\n"));
   };
   const std::string key = "test.yaml: systems.rotor.spread.correlations";
-  EXPECT_EQ(refusal("0.5"),
+  EXPECT_EQ(inputError("0.5"),
             key + ": must be a list of [parameter, other parameter, correlation], found 0.5");
-  EXPECT_EQ(refusal("[[mass, stiffness]]"),
+  EXPECT_EQ(inputError("[[mass, stiffness]]"),
             key + "[0]: must be [parameter, other parameter, correlation from -1 to 1]");
-  EXPECT_EQ(refusal("[[mass, stiffness, 1.01]]"),
+  EXPECT_EQ(inputError("[[mass, stiffness, 1.01]]"),
             key + "[0]: must be [parameter, other parameter, correlation from -1 to 1]");
-  EXPECT_EQ(refusal("[[mass, stifness, 0.5]]"),
+  EXPECT_EQ(inputError("[[mass, stifness, 0.5]]"),
             key +
                 "[0]: must be parameters with a spread, found 'stifness'; did you mean "
                 "'stiffness'?");
-  EXPECT_EQ(refusal("[[mass, eccentricity, 0.5]]"),
+  EXPECT_EQ(inputError("[[mass, eccentricity, 0.5]]"),
             key +
                 "[0]: correlations need normal distributions (standard_deviation); 'eccentricity' "
                 "is uniform");
-  EXPECT_EQ(refusal("[[mass, mass, 0.5]]"), key + "[0]: the correlation of 'mass' and 'mass' is 1");
-  EXPECT_EQ(refusal("[[mass, stiffness, 0.5], [stiffness, mass, 0.5]]"),
+  EXPECT_EQ(inputError("[[mass, mass, 0.5]]"),
+            key + "[0]: the correlation of 'mass' and 'mass' is 1");
+  EXPECT_EQ(inputError("[[mass, stiffness, 0.5], [stiffness, mass, 0.5]]"),
             key + "[1]: the correlation of 'stiffness' and 'mass' is given twice");
   EXPECT_EQ(
-      refusal("[[mass, stiffness, 0.9], [mass, damping, 0.9], [damping, stiffness, -0.9]]"),
+      inputError("[[mass, stiffness, 0.9], [mass, damping, 0.9], [damping, stiffness, -0.9]]"),
       key + ": the correlation matrix must be positive semidefinite, found an eigenvalue of -0.8");
 }
 
@@ -253,8 +253,8 @@ TEST(EnsembleDraw, StaysInRange) {
   }
 }
 
-// The rotors, and the pendulums by an explicit method, go side by side in vectors, the pendulums by
-// an implicit one one by one; a member of either is what it is as a system of its own.
+// The rotors, and the pendulums with an explicit method, are batched in SIMD vectors, the pendulums
+// with an implicit one are stepped individually; a sample of either equals the same system alone.
 TEST(Ensemble, MembersAreTheSystemsTheyWouldBeAlone) {
   const Scene rotors = sceneOf(rotorScene(R"(
     count: 13
@@ -359,8 +359,8 @@ TEST(Ensemble, PercentilesLieBetweenTheValues) {
   EXPECT_TRUE(std::isnan(percentile({}, 50.0)));
 }
 
-// A linear rotor that hangs in gravity whirls about where it rests as one without gravity does:
-// side by side (13 of one disc), and one by one (a mesh on unlike springs).
+// A linear rotor under gravity whirls about its equilibrium like one without gravity: batched (13
+// of one disc), and individually (a mesh on unlike springs).
 TEST(Ensemble, WhirlIsAboutWhereEachMemberRests) {
   const auto disc = [](const std::string& gravity) {
     return gravity + rotorScene(R"(
@@ -415,8 +415,8 @@ systems:
   }
 }
 
-// semi_implicit_euler is unstable where p h > 2: above 4e6 N/m here. Those members run away, one
-// after the other, and no one else.
+// semi_implicit_euler is unstable where p h > 2: above 4e6 N/m here. Those samples diverge, one
+// after the other, and no others.
 TEST(Ensemble, AMemberThatRunsAwayStopsAlone) {
   Twin twin(sceneOf(R"(
 step: 0.001
@@ -476,7 +476,7 @@ TEST(Ensemble, StepsAndTellsWithoutAllocating) {
     Twin twin(sceneOf(scene));
     twin.buildEnsembles();
     const AllocationGuard guard;
-    for (int i = 0; i < 50; ++i) {  // tells at 20 and 40
+    for (int i = 0; i < 50; ++i) {  // publishes at 20 and 40
       twin.step();
     }
     twin.reset();
@@ -484,7 +484,7 @@ TEST(Ensemble, StepsAndTellsWithoutAllocating) {
   }
 }
 
-// A radius whose square exceeds the range of a double counts as run away.
+// A radius whose square exceeds the range of a double counts as diverged.
 TEST(Ensemble, ARotorThatRunsAwayBesideOthersStopsAlone) {
   Twin twin(sceneOf(rotorScene(R"(
     count: 30
@@ -506,13 +506,13 @@ TEST(Ensemble, ARotorThatRunsAwayBesideOthersStopsAlone) {
 TEST(Ensemble, SpeedsItIsNotPreparedForAreRefused) {
   const std::string spread = "    count: 4\n    spread: {mass: {relative_half_width: 0.1}}\n";
   Running isotropic(sceneOf(rotorScene(spread)));
-  EXPECT_EQ(isotropic.parameters.objectionToSpeed(0, 400.0), "");
-  EXPECT_NE(isotropic.parameters.objectionToSpeed(0, 2.0e4), "");
+  EXPECT_EQ(isotropic.parameters.speedDiagnostic(0, 400.0), "");
+  EXPECT_NE(isotropic.parameters.speedDiagnostic(0, 2.0e4), "");
   std::string damped = rotorScene(spread);
   damped.replace(damped.find("damping: 10"), 11, "damping: 10, internal_damping: 1");
   Running dependent(sceneOf(damped));
-  EXPECT_EQ(dependent.parameters.objectionToSpeed(0, 150.0), "");
-  EXPECT_EQ(dependent.parameters.objectionToSpeed(0, 151.0),
+  EXPECT_EQ(dependent.parameters.speedDiagnostic(0, 150.0), "");
+  EXPECT_EQ(dependent.parameters.speedDiagnostic(0, 151.0),
             "speed: must be from 0 to 150 rad/s, the range prepared for the ensemble of rotor, "
             "found 151");
 }

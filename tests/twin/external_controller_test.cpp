@@ -1,5 +1,5 @@
-// A controller in another process: here the test is the other process, between two cycles of the
-// loop.
+// A controller in another process: here the test acts as the other process, between two cycles of
+// the loop.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ namespace external_controller_test {
 
 constexpr std::int64_t kStep = 1'000'000;  // ns
 
-/// Two equal masses that a magnet pulls away, and one that is left alone. `own` is held by a
-/// built-in law, `other` by another process.
+/// Two equal masses that a magnet pulls away, and an uncontrolled one. `own` is held by a built-in
+/// controller, `other` by another process.
 std::string sceneText(const std::string& external, const std::string& delay = "0.004") {
   const std::string mass =
       "{model: linear_system, integrator: exponential, parameters: {names: [x], mass: [[1.0]], "
@@ -33,8 +33,8 @@ std::string sceneText(const std::string& external, const std::string& delay = "0
       mass, external, delay);
 }
 
-/// "" if it is none.
-std::string refusalOf(const std::string& text) {
+/// The error; "" if there is none.
+std::string inputErrorOf(const std::string& text) {
   try {
     sceneOf(text);
   } catch (const SceneError& error) {
@@ -48,7 +48,7 @@ const char* const kLockstep = "mode: lockstep, timeout: 0.01";
 /// The process: the same law.
 class Process {
  public:
-  /// Answers all that has been asked; `late` of them wait for the next time.
+  /// Answers all pending samples; `late` of them wait for the next time.
   void answer(ExternalLink& link, std::size_t late = 0) {
     ExternalSample sample;
     while (link.take(sample)) {
@@ -146,7 +146,7 @@ TEST(ExternalController, InLockstepTimeWaitsAndNoLongerThanTheTimeout) {
     }
     const double held = live.acting();
     ASSERT_NE(held, 0.0);
-    // Killed. What is under way goes on; then time stands for 10 ms, and a period.
+    // Killed. Steps under way continue; then time is stopped for 10 ms, and a period.
     std::int64_t stood = 0;
     std::int64_t before = live.step();
     while (!live.external().lost() && stood < 100) {
@@ -253,7 +253,7 @@ TEST(ExternalController, FreeRunningLostItMayGiveZero) {
   EXPECT_EQ(live.acting(), 0.0);
 }
 
-// What it holds stands still; what a built-in law holds, and what nobody does, goes on.
+// The system that it controls stops; those with a built-in controller, or with none, continue.
 TEST(ExternalController, LostItMayStopWhatItActsOnAndNothingElse) {
   for (const char* const mode : {"lockstep", "free_running"}) {
     Live live(sceneText(fmt::format("mode: {}, timeout: 0.05, on_timeout: stop", mode)));
@@ -304,11 +304,11 @@ TEST(ExternalController, AllocatesNothingInTheLoop) {
 }
 
 TEST(ExternalController, InLockstepADelayBelowAStepIsRefused) {
-  EXPECT_NE(refusalOf(sceneText(kLockstep, "0.0005"))
+  EXPECT_NE(inputErrorOf(sceneText(kLockstep, "0.0005"))
                 .find("controllers.other.delay: must be at "
                       "least a step"),
             std::string::npos);
-  EXPECT_NE(refusalOf(sceneText("mode: lockstep")).find("controllers.other.timeout"),
+  EXPECT_NE(inputErrorOf(sceneText("mode: lockstep")).find("controllers.other.timeout"),
             std::string::npos);
 }
 

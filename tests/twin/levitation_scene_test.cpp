@@ -1,5 +1,5 @@
-// Scene `levitation` as it runs: what its comment says of it, and that the sensitivity which is
-// told of its loop is what a chirp measures.
+// Scene `levitation` in operation: the claims of its comment, and that the published sensitivity of
+// its loop agrees with a chirp measurement.
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
@@ -40,9 +40,9 @@ SampledMargins toldMargins(const Scene& scene, double speed) {
   return sampledMargins(parts.plant, parts.controllers, 0, verdict)[1];
 }
 
-// In its run-up the notch holds what it has learnt: the loop is that without it, and the shaft
-// hangs stably at every speed of the run-up, as it does in the simulation. With a notch that learns
-// at 0.6 rad/s, where it follows in tenths of a second what turns once in ten, it would not.
+// In its run-up the notch is frozen: the loop is that without it, and the shaft is stable at every
+// speed of the run-up, as in the simulation. With a notch that adapts at 0.6 rad/s, where it
+// follows in tenths of a second a rotation of one turn in ten, it would not be.
 TEST(LevitationScene, ANotchThatHoldsIsNoPartOfTheLoop) {
   const Scene scene = readSceneFile(kScene);
   YAML::Node without = YAML::LoadFile(kScene);
@@ -60,8 +60,8 @@ TEST(LevitationScene, ANotchThatHoldsIsNoPartOfTheLoop) {
   EXPECT_GT(radiusOf(partsOf(scene, 0.6)), 1.0);
 }
 
-/// A force [N] that sweeps from one frequency to another [rad/s] in `duration` [s] once the weight
-/// is carried, and is smooth at both ends; so large that a mass of 1 kg goes about 0.5 um.
+/// A force [N] with a frequency sweep from one frequency to another [rad/s] in `duration` [s] after
+/// the weight is carried, smooth at both ends; its amplitude moves a mass of 1 kg by about 0.5 um.
 struct Chirp {
   static constexpr double kStart = 2.0;  // s
   double from, to, duration;
@@ -77,8 +77,8 @@ struct Chirp {
 };
 
 /// The shipped scene at a constant speed, without unbalance, noise, converter and notch, its first
-/// sensor disturbed by a chirp: what is added to a sensor goes through the law and the amplifier
-/// and pulls at the magnet, beside what the controller does.
+/// sensor disturbed by a chirp: a disturbance of a sensor passes through the controller and the
+/// amplifier to the magnet force, added to the normal operation.
 Scene shaken(double speed, const Chirp& chirp) {
   YAML::Node scene = YAML::LoadFile(kScene);
   scene["step"] = 1.0e-4;
@@ -112,7 +112,7 @@ Scene shaken(double speed, const Chirp& chirp) {
   return readScene(scene, kScene);
 }
 
-/// What a stretch of the run has seen, beside what carries the weight.
+/// Extreme values in a section of the run, relative to the operating point.
 struct Seen {
   double disc = 0.0, magnet = 0.0;  ///< [m], farthest from where they are held
   double current = 0.0;             ///< [A], the largest

@@ -1,5 +1,5 @@
-// Which parameters can be changed while the twin runs, by their paths: every number of every model;
-// what a scene would refuse, and what would change the coordinates, is refused.
+// Parameters that can be changed while the twin runs, by their paths: every number of every model;
+// values invalid in a scene, and changes of the coordinates, are rejected.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,25 +17,25 @@ namespace live_change_paths_test {
 TEST(LiveChange, WhatASceneWouldRefuseIsRefusedInItsWords) {
   Running twin(sceneOf(kTwoSystems));
   twin.cycle(10);
-  const auto refusal = [&](const std::string& system, const std::string& name, double value,
-                           double ramp = 0.0) {
+  const auto inputError = [&](const std::string& system, const std::string& name, double value,
+                              double ramp = 0.0) {
     const ParameterAnswer answer = twin.set(system, name, value, ramp);
     EXPECT_FALSE(answer.done) << name;
     return answer.message;
   };
   const std::string of = "set_parameter: systems.rotor.parameters.";
-  EXPECT_EQ(refusal("rotr", "damping", 1.0),
+  EXPECT_EQ(inputError("rotr", "damping", 1.0),
             "system: must be a system of the scene, found 'rotr'; did you mean 'rotor'?");
-  EXPECT_EQ(refusal("rotor", "dampin", 1.0),
+  EXPECT_EQ(inputError("rotor", "dampin", 1.0),
             of + "dampin: unknown parameter of jeffcott_rotor; did you mean 'damping'?");
-  EXPECT_EQ(refusal("rotor", "mass", -1.0), of + "mass: must be > 0 kg, found -1");
-  EXPECT_EQ(refusal("rotor", "mass", 0.0, 2.0), of + "mass: must be > 0 kg, found 0");
-  EXPECT_NE(refusal("rotor", "damping", std::nan("")).find("found 'nan'"), std::string::npos);
-  EXPECT_NE(refusal("rotor", "damping", INFINITY).find("found 'inf'"), std::string::npos);
-  EXPECT_NE(refusal("rotor", "speed", 1.0).find("set_speed"), std::string::npos);
-  EXPECT_NE(refusal("rotor", "damping[0]", 1.0).find("is a single number"), std::string::npos);
-  EXPECT_NE(refusal("rotor", "", 1.0).find("unknown parameter"), std::string::npos);
-  EXPECT_EQ(refusal("rotor", "damping", 1.0, -1.0), "ramp: must be from 0 to 1e+06 s, found -1");
+  EXPECT_EQ(inputError("rotor", "mass", -1.0), of + "mass: must be > 0 kg, found -1");
+  EXPECT_EQ(inputError("rotor", "mass", 0.0, 2.0), of + "mass: must be > 0 kg, found 0");
+  EXPECT_NE(inputError("rotor", "damping", std::nan("")).find("found 'nan'"), std::string::npos);
+  EXPECT_NE(inputError("rotor", "damping", INFINITY).find("found 'inf'"), std::string::npos);
+  EXPECT_NE(inputError("rotor", "speed", 1.0).find("set_speed"), std::string::npos);
+  EXPECT_NE(inputError("rotor", "damping[0]", 1.0).find("is a single number"), std::string::npos);
+  EXPECT_NE(inputError("rotor", "", 1.0).find("unknown parameter"), std::string::npos);
+  EXPECT_EQ(inputError("rotor", "damping", 1.0, -1.0), "ramp: must be from 0 to 1e+06 s, found -1");
   EXPECT_FALSE(twin.parameters.set({"rotor", {"mass", "mass"}, {1.0, 2.0}, 0.0}).done);
   EXPECT_FALSE(twin.parameters.set({"rotor", {"mass"}, {}, 0.0}).done);
   twin.observe();
@@ -60,7 +60,7 @@ TEST(LiveChange, TablesAndMatricesAreChangedByTheirPaths) {
   twin.cycle(10);
   ASSERT_TRUE(twin.set("two", "force[1].amplitude", 5.0).done);
   ASSERT_TRUE(twin.set("two", "stiffness[1][1]", 300.0).done);
-  // Half of a symmetric pair is refused as in a scene, both at once are not.
+  // A change of half of a symmetric pair is rejected as in a scene, one of both at once is not.
   EXPECT_NE(twin.set("two", "stiffness[0][1]", -50.0).message.find("symmetric"), std::string::npos);
   EXPECT_TRUE(
       twin.parameters.set({"two", {"stiffness[0][1]", "stiffness[1][0]"}, {-50.0, -50.0}, 0.0})

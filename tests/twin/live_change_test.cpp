@@ -1,5 +1,6 @@
-// Parameters changed while the twin runs: the motion goes on without a jump, as a twin that starts
-// there with the new parameters; the energy audit goes on too; nothing is allocated in the loop.
+// Parameters changed while the twin runs: the motion continues without a jump, as in a twin that
+// starts there with the new parameters; the energy audit continues too; nothing is allocated in the
+// loop.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +39,7 @@ TEST(LiveChange, IsARecordOfItsStepWithTheSameState) {
 TEST(LiveChange, ParametersThatWouldStopASystemAreRefused) {
   Running twin(sceneOf(kTwoSystems));
   twin.cycle(10);
-  for (const double length : {1e200, 1e-200}) {  // whose square no double holds
+  for (const double length : {1e200, 1e-200}) {  // whose square is outside the range of a double
     const ParameterAnswer answer = twin.set("governor", "length", length);
     EXPECT_FALSE(answer.done) << length;
     EXPECT_NE(answer.message.find("governor"), std::string::npos) << answer.message;
@@ -52,13 +53,13 @@ TEST(LiveChange, ParametersThatWouldStopASystemAreRefused) {
 
 TEST(LiveChange, SpeedsThatWouldStopASystemAreRefused) {
   Running twin(sceneOf(kTwoSystems));
-  EXPECT_EQ(twin.parameters.objectionToSpeed(0, 50.0), "");
-  const std::string refused = twin.parameters.objectionToSpeed(0, 1e6);
+  EXPECT_EQ(twin.parameters.speedDiagnostic(0, 50.0), "");
+  const std::string refused = twin.parameters.speedDiagnostic(0, 1e6);
   EXPECT_EQ(refused.find("speed: at 1e+06 rad/s governor would stop in step "), 0u) << refused;
 }
 
 // A band of 40 to 60 rad/s, and 10 rad/s of run-up: from 38 rad/s it goes back to 30 before it
-// crosses, and on to 70 before it comes back to the edge.
+// crosses, and on to 70 before it returns to the edge.
 TEST(LiveChange, AShaftSentIntoABandGoesToItsEdgePastWhatItTakes) {
   Running twin(sceneOf(
       "{step: 0.001, drives: {shaft: {speed: 38, avoid: {bands: [{from: 40, to: 60}]}}}, systems: "
@@ -212,7 +213,7 @@ TEST(LiveChange, AResetBringsBackTheScenesParameters) {
   fresh.observe();
   EXPECT_EQ(twin.state(0), fresh.state(0));
   EXPECT_EQ(twin.state(1), fresh.state(1));
-  // And it can be changed anew.
+  // And it can be changed again.
   const ParameterAnswer answer = twin.set("rotor", "damping", 11.0);
   ASSERT_TRUE(answer.done);
   EXPECT_EQ(answer.previous, std::vector<double>{kDamped});

@@ -1,5 +1,5 @@
-// Parameters of controllers changed while the twin runs: no bump, the set-point is followed, what a
-// scene would refuse is refused, a reset brings the scene's back; nothing is allocated in the loop.
+// Parameters of controllers changed while the twin runs: bumpless, the set-point is tracked, values
+// invalid in a scene are rejected, a reset restores the scene's; nothing is allocated in the loop.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ class LiveControllers : public testing::Test {
                ? std::nan("")
                : set.values[static_cast<std::size_t>(found - set.names.begin())];
   }
-  /// Runs on, and returns how far the force and the place have been off at most.
+  /// Continues, and returns the largest deviations of the force and the position.
   std::pair<double, double> largestChange(int steps, double force_then, double place_then) {
     std::pair<double, double> largest{0.0, 0.0};
     for (int i = 0; i < steps; ++i) {

@@ -1,4 +1,4 @@
-// The twin as the fixed-rate loop runs it: records out of a cycle, commands into it.
+// The twin in the fixed-rate loop: records out of a cycle, commands into it.
 #include "twin/live_twin.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ class Live : public testing::Test {
               capacity),
         record_(live_.twin().layout().size) {}
 
-  /// Cycles so often, and returns the steps of the records that came out.
+  /// Runs so many cycles, and returns the steps of the records read.
   std::vector<std::int64_t> stepsAfter(int cycles) {
     for (int i = 0; i < cycles; ++i) {
       live_.cycle(scheduled_ += 1000000);

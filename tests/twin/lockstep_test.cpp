@@ -1,4 +1,5 @@
-// Lockstep: the twin goes no further than those who listen have come, and not without one unasked.
+// Lockstep: the twin advances only as far as all its receivers have acknowledged, and drops an
+// overdue one only on request.
 #include "twin/lockstep.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace lockstep_test {
 
 using Names = std::vector<std::string>;
 
-/// A live twin in lockstep with two listeners, whose records the test passes on.
+/// A live twin in lockstep with two receivers, to which the test forwards its records.
 class InLockstep : public testing::Test {
  protected:
   explicit InLockstep(std::int64_t ahead = 1, std::int64_t every = 1)

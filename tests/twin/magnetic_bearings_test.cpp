@@ -1,5 +1,5 @@
-// Rotors on magnetic bearings as they run: by their law far from the middle too, whatever the
-// method, and what is told where it ends.
+// Rotors on magnetic bearings in operation: by their force law far from the centre too, with any
+// method, and the report at the limit of its validity.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ double farthest(const std::vector<double>& a, const std::vector<double>& b) {
   return largest;
 }
 
-/// x and y of the disc with i = 0.3 cos(700 t) along x and 0 along y, by a method of its own.
+/// x and y of the disc with i = 0.3 cos(700 t) along x and 0 along y, by an independent method.
 std::array<double, 4> byItself(double stiffness, double seconds) {
   const MagneticBearing magnet(100.0, 2.0, 4.0e-4, std::numeric_limits<double>::infinity());
   using State = std::array<double, 4>;  // x, y, and their rates
@@ -121,7 +121,7 @@ TEST(MagneticBearings, AreSteppedToTheFourthOrder) {
   }
 }
 
-/// A shaft on two magnets, of which eight or four shapes are kept.
+/// A shaft on two magnetic bearings, reduced to eight or four modes.
 std::string shaft(double step, int modes, const std::string& magnet, const std::string& more) {
   return fmt::format(
       "{{step: {:.9f}, drives: {{shaft: {{speed: 100.0, profile: [{{speed: 300.0, "
@@ -139,8 +139,8 @@ std::string shaft(double step, int modes, const std::string& magnet, const std::
 constexpr const char* kWithGap = "bias: 0.8, gap: 4.0e-4";
 constexpr const char* kLinear = "ks: 2.0e+5";
 
-// What a controller gives through a lag, and what the poles pull beyond the linear law, is work
-// that the audit knows, in a run-up and at constant speed.
+// The work of a controller through a lag, and of the pole forces beyond the linear law, is included
+// in the audit, in a run-up and at constant speed.
 TEST(MagneticBearings, CloseTheEnergyBalance) {
   Twin twin(sceneOf(shaft(0.001, 8, kWithGap, "")));
   Observer observer(twin);
@@ -198,7 +198,7 @@ TEST(MagneticBearings, OfSmallMotionsAreLinear) {
   EXPECT_GT(apart(1.2e-4), 1e-2);
 }
 
-// What falls on its poles stops, and says so: no number of it is none.
+// A rotor that reaches the poles stops with an error: none of its numbers becomes NaN.
 TEST(MagneticBearings, StopWhatTouchesTheirPoles) {
   Twin twin(sceneOf(disc(1.0e-3, 1.0e5, "initial: {x: 1.0e-4}}}}")));
   int steps = 0;
@@ -219,7 +219,7 @@ TEST(MagneticBearings, StopWhatTouchesTheirPoles) {
                       "state: x = 0.0002"),
             std::string::npos)
       << text;
-  // Before that the room there is left is a condition of the model.
+  // Before that the remaining gap is a condition of the model.
   const Eigen::Vector2d near(3.5e-4, 1.0e-4);
   const std::vector<Condition> conditions =
       validity(*system.dynamics, near, Eigen::Vector2d::Zero(), {});
@@ -252,10 +252,10 @@ TEST(MagneticBearings, HoldARigidRotorAtTheirPlaces) {
   }
 }
 
-/// A rigid rotor of unit mass and tilting inertia, polar inertia 1.2, on magnets 1 m to both sides
-/// whose negative stiffness is 1 in displacement and in tilt. Both are held by 2 z + sqrt(2) z' of
-/// samples that are `late` [s] in all; to the rates of the tilt a quarter turn on a torque of
-/// `cross` times them is added.
+/// A rigid rotor of unit mass and transverse inertia, polar inertia 1.2, on magnetic bearings 1 m
+/// to both sides whose negative stiffness is 1 in displacement and in tilt. Both are controlled by
+/// 2 z + sqrt(2) z' of samples with a total delay `late` [s]; a torque of `cross` times the tilt
+/// rates, rotated by a quarter turn, is added.
 std::string tilting(double speed, double late, double cross) {
   constexpr double kPeriod = 0.01;
   Eigen::Matrix4d rates = std::sqrt(0.5) * Eigen::Matrix4d::Identity();

@@ -1,4 +1,4 @@
-// What sensors measure of a running twin: the signal itself where they are perfect, the same bytes
+// Sensor measurements of a running twin: the signal itself where they are perfect, the same bytes
 // on every run, a keyphasor's phase.
 #include "twin/measurements.h"
 
@@ -131,7 +131,7 @@ TEST(Measurements, RunOutTurnsWithTheShaftAndNoiseRepeats) {
     EXPECT_NEAR(channel(first.blocks, 1).values[k], first.whirl[k].y + 2.0e-5 * std::cos(angle),
                 1.0e-15);
     if (k > 20) {
-      break;  // each point builds the series anew
+      break;  // each point rebuilds the series
     }
   }
   squares = 0.0;

@@ -1,6 +1,6 @@
 // Properties of motions over random parameters: momenta of cyclic coordinates are conserved, two
-// sets of coordinates tell one motion, a heavy hub holds its speed, and the verdict on a rest is
-// what is seen in time.
+// sets of coordinates give one motion, a heavy hub keeps its speed, and the stability verdict on an
+// equilibrium agrees with the motion in time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -132,7 +132,7 @@ TEST_F(Motions, AbsoluteAndRelativeAnglesTellOneDoublePendulum) {
   }
 }
 
-// The speed of a free pendulum varies by m l^2 / J of itself, and with it the motion by as much.
+// The speed of a free pendulum varies by the relative amount m l^2 / J, and its motion by as much.
 TEST_F(Motions, AHugeHubHoldsItsSpeedLikeADrivenShaft) {
   for (int draw = 0; draw < 50; ++draw) {
     RunningSystem::Setup held;
@@ -213,7 +213,7 @@ TEST_F(Motions, TheVerdictOnARestIsWhatIsSeenInTime) {
       if (std::fabs(fastest) < 0.02) {
         continue;  // too slow to be seen in the time given
       }
-      // Long enough to tell, short enough that a deviation of 1e-9 stays small.
+      // Long enough to decide, short enough that a deviation of 1e-9 stays small.
       const double rate = growth(s, e.q, 12.0 / std::fabs(fastest));
       ASSERT_EQ(verdict == Verdict::kUnstable, rate > 0.0) << s.model << " " << draw << " " << rate;
       ASSERT_EQ(verdict == Verdict::kUnstable, fastest > 0.0);

@@ -1,4 +1,4 @@
-// A drive that is a motor: how a scene gives it, what is refused, and where its work goes.
+// A drive with a motor: its settings in a scene, errors, and the balance of its work.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ std::string scene(const std::string& motor, const std::string& system = "") {
          system + "}}}}";
 }
 
-std::string complaints(const std::string& yaml) {
+std::string diagnostics(const std::string& yaml) {
   try {
     sceneOf(yaml);
   } catch (const SceneError& error) {
@@ -48,7 +48,7 @@ TEST(MotorScene, StartsTheSpinAsTheDriveDoes) {
 }
 
 TEST(MotorScene, SaysAllThatIsWrongWithAMotor) {
-  const std::string two = complaints(scene("{torque: 0.3, stall_torque: -1, drag: -2}"));
+  const std::string two = diagnostics(scene("{torque: 0.3, stall_torque: -1, drag: -2}"));
   for (const char* part :
        {"drives.engine.motor: must be one of {torque}, {stall_torque, no_load_speed} and {table}",
         "drives.engine.motor.stall_torque: must be > 0 N m, found -1",
@@ -56,16 +56,16 @@ TEST(MotorScene, SaysAllThatIsWrongWithAMotor) {
         "drives.engine.motor.drag: must be >= 0 N m s/rad, found -2"}) {
     EXPECT_NE(two.find(part), std::string::npos) << part << "\nis not in\n" << two;
   }
-  EXPECT_NE(complaints(scene("{table: [{speed: 1, torque: 1}]}")).find("2 to 32"),
+  EXPECT_NE(diagnostics(scene("{table: [{speed: 1, torque: 1}]}")).find("2 to 32"),
             std::string::npos);
   EXPECT_NE(
-      complaints(scene("{table: [{speed: 9, torque: 1}, {speed: 1, torque: 2}]}"))
+      diagnostics(scene("{table: [{speed: 9, torque: 1}, {speed: 1, torque: 2}]}"))
           .find("motor.table[1].speed: must be greater than the one before, 9 rad/s, found 1"),
       std::string::npos);
-  EXPECT_NE(complaints(scene("{torque: 1}, profile: [{speed: 3, max_acceleration: 1}]"))
+  EXPECT_NE(diagnostics(scene("{torque: 1}, profile: [{speed: 3, max_acceleration: 1}]"))
                 .find("drives.engine.profile: a motor's speed is not prescribed"),
             std::string::npos);
-  EXPECT_NE(complaints(scene("{torque: 1}", "}, initial: {spin_rate: 3"))
+  EXPECT_NE(diagnostics(scene("{torque: 1}", "}, initial: {spin_rate: 3"))
                 .find("systems.rotor.initial.spin_rate: must not be given: the shaft starts with "
                       "the angle and speed of its drive"),
             std::string::npos);
@@ -74,10 +74,10 @@ TEST(MotorScene, SaysAllThatIsWrongWithAMotor) {
 TEST(MotorScene, NeedsAnInertiaAndOneSystemThatTakesAMotor) {
   std::string light = scene("{torque: 1}");
   light.replace(light.find("polar_inertia: 0.02, "), 21, "");
-  EXPECT_NE(complaints(light).find(
+  EXPECT_NE(diagnostics(light).find(
                 "systems.rotor.parameters.polar_inertia: must be > 0 kg m^2 with a motor"),
             std::string::npos);
-  const std::string two = complaints(
+  const std::string two = diagnostics(
       "{step: 0.001, drives: {m: {motor: {torque: 1}}}, systems: {a: {model: spinning_pendulum, "
       "drive: m, parameters: {mass: 1, length: 1}}, b: {model: jeffcott_rotor, drive: m, "
       "parameters: {mass: 1, stiffness: 1, polar_inertia: 1}}}}");
@@ -90,7 +90,7 @@ TEST(MotorScene, NeedsAnInertiaAndOneSystemThatTakesAMotor) {
 }
 
 // Every effect at once. The audit's quadrature and the step are of order 6: at 0.05 rad of whirl a
-// step what is left is 1e-10 of the energy in play.
+// step the residual is 1e-10 of the energy in play.
 TEST(MotorScene, ItsWorkIsWhatIsDissipatedAndGained) {
   Twin twin(sceneOf(scene("{stall_torque: 0.8, no_load_speed: 150, drag: 1.0e-4}")));
   Observer observer(twin);

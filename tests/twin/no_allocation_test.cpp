@@ -1,6 +1,5 @@
-// Nothing that runs in the real-time thread allocates: step, write, setSpeed and reset, for every
-// model and every method, at constant and at changing speed; and its state, taken and put back
-// there.
+// Code of the real-time thread does not allocate: step, write, setSpeed and reset, for every model
+// and every method, at constant and at changing speed; and saving and restoring the state.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -99,22 +98,22 @@ TEST_P(NoAllocation, InTheRealTimeThread) {
   EXPECT_EQ(twin.status(0), StepStatus::kOk) << "what does not step does not allocate";
 }
 
-/// Every number of a step's past that is left out shows here, in the bits of those after it.
+/// Every value of a step's history missing in the image changes the bits of the steps that follow.
 TEST_P(NoAllocation, GoesOnFromItsImageToTheBit) {
   Twin twin(scene());
   Twin resumed(scene());
-  const auto goOn = [](Twin& one, int steps) {
+  const auto resume = [](Twin& one, int steps) {
     for (int i = 0; i < steps; ++i) {
       one.step();
     }
   };
-  goOn(resumed, 90);
+  resume(resumed, 90);
   std::vector<char> room(1'000'000);
   for (const int before : {300, 500, 77}) {
-    goOn(twin, before);
+    resume(twin, before);
     if (before == 500) {
       twin.setSpeed(0, 20.0, 30.0, 100.0);
-      goOn(twin, 3);
+      resume(twin, 3);
     }
     const AllocationGuard guard;
     StateImage taken = StateImage::taking(room.data(), room.size());
@@ -144,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Models, NoAllocation, testing::ValuesIn(everyPair()),
                          });
 
 TEST(NoAllocationOf, AStiffImplicitStepOrOneThatFails) {
-  // Newton's iteration, and its refusal of thousands of turns in one step.
+  // Newton's iteration, and its error for thousands of turns in one step.
   for (const char* rate : {"0", "3000"}) {
     Twin twin(
         sceneOf("{step: 0.05, systems: {a: {model: double_pendulum, integrator: "

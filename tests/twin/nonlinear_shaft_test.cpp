@@ -1,5 +1,5 @@
-// Rubs, films and cubic springs at nodes of a flexible rotor, beside closed forms and beside the
-// Jeffcott rotor's own, which other methods step.
+// Rubs, oil films and cubic springs at nodes of a flexible rotor, against closed forms and against
+// the same elements of the Jeffcott rotor, which uses other methods.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -118,9 +118,9 @@ TEST(LocalElements, SettleInFilmsAsAJeffcottRotorDoes) {
   EXPECT_LT((placeOf(twin, 1, "node_1") - jeffcott).norm(), 2e-6 * jeffcott.norm());
 }
 
-// A Jeffcott rotor in its films by the exact step of its linear part, in a run-up, beside another
-// method of another order at a quarter of the step. It is let go outside the films' balance: within
-// a tenth of the first step they carry it.
+// A Jeffcott rotor in its oil films by the exact step of its linear part, in a run-up, against
+// another method of another order at a quarter of the step. It starts away from the films'
+// equilibrium: within a tenth of the first step they carry it.
 TEST(LocalElements, OfAJeffcottRotorInFilmsGoAsByAnotherMethod) {
   const auto rotor = [](double step, const char* integrator) {
     return sceneWith(
@@ -227,8 +227,9 @@ TEST(LocalElements, AreSteppedToTheFifthOrder) {
   EXPECT_LT((after(2.0e-3) - exact).norm(), 1e-5 * 1.0e-4);
 }
 
-// In a run-up the places' answer is only nearly known: forces and places agree all the same. Their
-// work is counted by the step at constant speed, by a quadrature in a run-up.
+// In a run-up the response of the stations is known only approximately: forces and positions are
+// consistent all the same. Their work is counted by the step at constant speed, by a quadrature in
+// a run-up.
 TEST(LocalElements, CloseTheEnergyBalanceAtConstantSpeedAndInARunUp) {
   const auto after = [](double step, const std::string& drive, double& open) {
     Twin twin(sceneWith(
@@ -273,8 +274,8 @@ TEST(LocalElements, StepWithoutAllocations) {
   EXPECT_EQ(twin.status(0), StepStatus::kOk);
 }
 
-// A reduced rotor rests and moves in its films as the whole one does: its shapes know what a force
-// does at each of them.
+// A reduced-order rotor has the equilibria and motions in its films of the full-order one: its
+// modes represent the effect of a force at each of them.
 TEST(LocalElements, SeeTheWholeShaftInAReducedOne) {
   const auto rotor = [](const std::string& modes) {
     return fmt::format(
@@ -297,7 +298,7 @@ TEST(LocalElements, SeeTheWholeShaftInAReducedOne) {
   }
 }
 
-// A damper's ring is the pedestal that the bearing stands on: nothing else sees its film.
+// A damper's ring is the pedestal of the bearing: nothing else is coupled to its film.
 TEST(LocalElements, DampTheRingOfABearing) {
   const Scene scene = sceneWith(
       1.0e-4, "speed: 150.0",
@@ -314,7 +315,7 @@ TEST(LocalElements, DampTheRingOfABearing) {
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     if (coordinates[i].name == "pedestal_x_2") {
       v[static_cast<Eigen::Index>(i)] = 1.0e-3;
-      const Eigen::VectorXd force = dynamics.unbalancedForce(q, v, {0.0, 0.0, 150.0, 0.0});
+      const Eigen::VectorXd force = dynamics.residualForce(q, v, {0.0, 0.0, 150.0, 0.0});
       // About the middle: pi mu R L^3 / (2 c^3).
       const double damping = 0.5 * kPi * 0.1 * 0.0125 * 1.0e-6 / 1.0e-12;
       for (Eigen::Index k = 0; k < q.size(); ++k) {

@@ -1,4 +1,4 @@
-// What the observer makes of the twin's records: radius and unwrapped phase, the 1X orbit's axes,
+// The observer's evaluation of the twin's records: radius and unwrapped phase, the 1X orbit's axes,
 // the shaft's angle, energies.
 #include "twin/observer.h"
 
@@ -21,7 +21,7 @@ Scene rotorScene(const std::string& parameters = "", const std::string& initial 
       parameters + "}, initial: {" + initial + "}}}}");
 }
 
-/// Records made by hand: the rotor put where the test wants it.
+/// Synthetic records: the rotor has the position that the test sets.
 class RotorRecords : public testing::Test {
  protected:
   RotorRecords() : twin_(rotorScene()), observer_(twin_), record_(twin_.layout().size) {
@@ -212,7 +212,7 @@ TEST(Observer, StationsOfAShaftHaveWhirlsOfTheirOwn) {
   const state::WhirlState left = observer.whirl(0, 1);
   const state::WhirlState right = observer.whirl(0, 2);
   EXPECT_EQ(left.system, "rotor_node_1");
-  // All coordinates are kept: those of node i stand at 4 i, x first.
+  // All coordinates are kept: those of node i start at index 4 i, x first.
   EXPECT_EQ(left.x, observer.coordinates(0)[4]);
   EXPECT_EQ(left.y, observer.coordinates(0)[5]);
   EXPECT_EQ(right.x, observer.coordinates(0)[12]);

@@ -1,5 +1,5 @@
-// Orders, lines and precession of the shipped rotors, beside what is known of them: the area that
-// their velocities sweep, the orbit of steady unbalance response, whirls of linear theory.
+// Orders, non-synchronous components and precession of the shipped rotors, against references: the
+// area swept by the velocities, the orbit of steady unbalance response, whirls of linear theory.
 #include "twin/order_observer.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace order_observer_test {
 namespace fs = std::filesystem;
 using Complex = std::complex<double>;
 
-/// A scene as it runs, with every state of every rotor and all orders that are told.
+/// A run of a scene, with every state of every rotor and all published orders.
 struct FollowedRun {
   explicit FollowedRun(const Scene& scene)
       : twin(scene), observer(twin), orders(twin), record(twin.layout().size) {}
@@ -58,7 +58,7 @@ struct FollowedRun {
   std::map<std::string, std::vector<WhirlMotion>> motion;
 };
 
-/// Area swept about the mean, by the velocities of the model, beside that of circles.
+/// Area swept about the mean, by the velocities of the model, relative to that of circles.
 double sweptArea(const std::vector<WhirlMotion>& motion, const state::OrderState& s) {
   double swept = 0.0, circles = 0.0;
   for (const WhirlMotion& m : motion) {
@@ -78,7 +78,7 @@ TEST(ShippedRotors, PrecessionIsThatOfTheMotion) {
   for (const auto& file : fs::directory_iterator(WHIRL_TWIN_SOURCE "/config/scenes")) {
     const Scene scene = shipped(file.path().stem());
     FollowedRun run(scene);
-    // What noise of a controller's sensors moves has no sense of its own.
+    // Motion caused by noise of a controller's sensors has no definite sense.
     if (run.orders.empty() || !scene.controllers.empty()) {
       continue;
     }
@@ -170,7 +170,7 @@ TEST(SteadyUnbalance, OrdersAreTheOrbitThatTheModelHas) {
   EXPECT_NEAR(std::fabs(last.forward_amplitude[0] - last.backward_amplitude[0]), whirl.orbit_minor,
               1e-6 * whirl.orbit_major);
   EXPECT_EQ(last.forward, whirl.forward);
-  // The response along x, by hand, from the phase mark.
+  // The response along x, by hand, from the phase reference.
   const Complex along_x = 2.0 * 1e-4 * 64.0 * 64.0 / Complex(7200.0 - 2.0 * 64.0 * 64.0, 12.0 * 64);
   const Complex forward = std::polar(last.forward_amplitude[0], -last.forward_lag[0]);
   const Complex backward = std::polar(last.backward_amplitude[0], -last.backward_lag[0]);

@@ -1,5 +1,5 @@
-// Systems that prepare for the speeds of their shaft: made ready before a drive is sent beyond what
-// they know, and deleted by nobody but the thread that sends commands.
+// Systems that precompute data for shaft speeds: prepared before a drive goes beyond their range,
+// and deleted only by the thread that sends commands.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ int deleted = 0;
 double ready_from = 0.0;  // rad/s
 double ready_to = 0.0;
 
-/// A jeffcott_rotor that has to know the speeds beforehand.
+/// A jeffcott_rotor that must be prepared for its speeds.
 class PreparedRotor final : public Stepper {
  public:
   PreparedRotor(std::function<std::unique_ptr<Stepper>()> rotor, double lowest, double highest)
@@ -54,10 +54,10 @@ ModelInfo preparedModel() {
   ModelInfo info = *findModel("jeffcott_rotor");
   info.name = "prepared_rotor";
   info.setUp = [plain = info.setUp](const ParameterValues& values, const Settings& settings,
-                                    const Surroundings& around) {
+                                    const ModelContext& around) {
     ModelSetup setup = plain(values, settings, around);
     setup.system = [make = setup.system](const std::string& integrator,
-                                         const Excitation& excitation, double step,
+                                         const StepContext& excitation, double step,
                                          int substeps) -> std::unique_ptr<Stepper> {
       return std::make_unique<PreparedRotor>(
           [=] { return make(integrator, excitation, step, substeps); }, 0.0, 10.0);

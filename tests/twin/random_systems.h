@@ -1,5 +1,5 @@
-// Random systems of every model: parameters, states and loads in the ranges that machines have,
-// with the fastest frequency that moves in them.
+// Random systems of every model: parameters, states and loads in realistic ranges, with their
+// fastest natural frequency.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// A live twin and the changes of its parameters, run by whoever waits for them.
+// A live twin and its parameter changes, run in the thread of the caller.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace whirl_twin {
 
 inline constexpr double kDamped = 10.0;  // N s/m
 
-/// A rotor at a constant speed of its own, and a pendulum on a shaft.
+/// A rotor at its own constant speed, and a pendulum on a shaft.
 inline const char* const kTwoSystems = R"(
 step: 0.001
 drives: {shaft: {speed: 5.0}}
@@ -31,7 +31,7 @@ systems:
     initial: {theta: 0.4}
 )";
 
-/// A live twin whose loop runs a cycle whenever somebody waits for it.
+/// A live twin whose loop runs one cycle per wait.
 class Running {
  public:
   explicit Running(const Scene& scene)

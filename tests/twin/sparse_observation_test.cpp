@@ -1,7 +1,7 @@
-// An observer that is told of few steps, and only looks at those between, tells the same phases as
-// one that observes every step, to the last bit. Where a whirl comes to have none, near 1e-9 of the
-// largest radius seen, one may have it a step longer than the other, who saw a larger one: what
-// comes after is the same but for whole turns.
+// An observer that publishes few steps, and only samples those between, publishes the same phases
+// as one that observes every step, bit-identical. Where a whirl loses its phase, near 1e-9 of the
+// largest radius so far, one may keep it a step longer than the other, which found a larger radius:
+// afterwards they agree up to whole turns.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,14 +19,14 @@ namespace whirl_twin {
 namespace sparse_observation_test {
 
 struct Comparison {
-  std::int64_t observed = 0;  ///< steps, of those that nobody was told of
+  std::int64_t observed = 0;  ///< steps, of the unpublished ones
   std::int64_t looked = 0;
-  int differing = 0;  ///< phases told
+  int differing = 0;  ///< published phases
 };
 
 class Same {
  public:
-  /// Of every step, whoever is told: sparse looks may miss the largest.
+  /// Called for every step, published or not: sparse samples may miss the largest.
   void see(double radius) { largest_ = std::max(largest_, radius); }
   bool operator()(const state::WhirlState& a, const state::WhirlState& b) {
     ended_ = ended_ || a.radius < 4e-9 * largest_;
@@ -42,8 +42,9 @@ class Same {
   bool ended_ = false;
 };
 
-/// Told of one step in `told` and of those that have to be observed, with records and without.
-Comparison compare(const Scene& scene, std::int64_t steps, std::int64_t told) {
+/// Publishes every `stride`-th step, and observes those that are required, with records and
+/// without.
+Comparison compare(const Scene& scene, std::int64_t steps, std::int64_t stride) {
   Twin twin(scene);
   Observer every(twin);
   Observer sparse(twin);
@@ -58,11 +59,11 @@ Comparison compare(const Scene& scene, std::int64_t steps, std::int64_t told) {
     for (std::size_t k = 0; k < same.size(); ++k) {
       same[k].see(every.whirl(0, k).radius);
     }
-    if (i % told == 0 || !records.look(record.data())) {
+    if (i % stride == 0 || !records.look(record.data())) {
       records.observe(record.data());
       c.differing += same[0](every.whirl(0), records.whirl(0)) ? 0 : 1;
     }
-    const bool due = i % told == 0 || i - sparse.step() >= sparse.mostPassed();
+    const bool due = i % stride == 0 || i - sparse.step() >= sparse.mostPassed();
     if (!due) {
       if (sparse.look(twin)) {
         ++c.looked;
@@ -92,9 +93,9 @@ class Random {
   std::mt19937_64 generator_{12};
 };
 
-/// Run-ups, run-downs, reversals, shafts that stand still and constant speeds; free whirls faster
-/// and slower than the shaft, in a plane and around the centre, about a sag and without; steps in
-/// which they turn by a hundredth of a turn and by more than half.
+/// Run-ups, run-downs, reversals, stationary shafts and constant speeds; free whirls faster and
+/// slower than the shaft, in a plane and around the centre, about a sag and without; steps in which
+/// they turn by a hundredth of a turn and by more than half.
 std::string randomRotor(Random& random) {
   const double speed = random.zero_once_in(4, -300.0, 300.0);
   const double target = random.zero_once_in(4, -300.0, 300.0);
@@ -174,7 +175,7 @@ TEST(SparseObservation, EveryStationOfAShaftIsFollowed) {
   }
 }
 
-// Energies are a part of what somebody is told: the largest in play is looked for all the same.
+// Energies are published: their largest value in play is tracked all the same.
 TEST(SparseObservation, EnergiesAreObservedNowAndThen) {
   const Twin pendulum(sceneOf(
       "{step: 0.001, systems: {p: {model: double_pendulum, parameters: {mass1: 1, mass2: 1, "

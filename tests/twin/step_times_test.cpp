@@ -1,4 +1,4 @@
-// What the systems of a live twin take of its steps, and which of them a step was late for.
+// Time of each system in the steps of a live twin, and the one that caused a deadline miss.
 #include "twin/step_times.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A shaft that its motor brings through a resonance under a speed controller: thrown through, given
-// up or refused, but it never sits where the resonance holds it.
+// A shaft that its motor brings through a resonance under a speed controller: passed, aborted or
+// rejected, but never captured for long.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ constexpr double kTwoPi = 6.28318530717958647692;
 struct Machine {
   std::string rotor = "mass: 5.0, stiffness: 2.0e5, damping: 10.0, eccentricity: 5.0e-5";
   double critical = 200.0;    ///< [rad/s]
-  double acceleration = 1.0;  ///< [rad/s^2], of the first try
+  double acceleration = 1.0;  ///< [rad/s^2], of the first attempt
   double again = 8.0;         ///< [rad/s^2]
   double torque = 0.042;      ///< [N m]
   double drag = 0.0;          ///< [N m s/rad]
@@ -55,12 +55,12 @@ struct Outcome {
   double speed = 0.0;  ///< [rad/s], at the end
   int retreats = 0;
   double furthest = 0.0;  ///< [rad/s]
-  /// [s], of a stay at the limit of torque in the band or as far below it as it is wide, less what
-  /// one that goes on by a fiftieth of the plan takes for the speed that it gained.
+  /// [s], of a stay at the torque limit in the band or less than its width below it, minus the time
+  /// that one which advances by a fiftieth of the plan needs for its gain in speed.
   double longest_stay = 0.0;
 };
 
-/// Until it is known how it ends, but for at most `time` [s].
+/// Until the result is known, but for at most `time` [s].
 Outcome run(const Machine& machine, double time) {
   Twin twin(machine.scene());
   const RunningController& governor = twin.control().controllers()[0];
@@ -128,7 +128,7 @@ TEST(SupervisedSpeed, DoesNotTryWhatIsKnownToFail) {
   machine.torque = 0.012;
   const Scene scene = machine.scene();
   ASSERT_EQ(scene.controllers[0].weak_passages.size(), 1u);
-  const WeakPassage& weak = scene.controllers[0].weak_passages[0];
+  const ResonancePassageCheck& weak = scene.controllers[0].weak_passages[0];
   EXPECT_FALSE(weak.tried);
   // c p r^2 with r = e / (2 zeta) at p = 200 rad/s, zeta = 0.005.
   EXPECT_NEAR(weak.needed, 10.0 * 200.0 * std::pow(5e-5 / 0.01, 2), 2e-3 * weak.needed);
@@ -142,8 +142,8 @@ TEST(SupervisedSpeed, DoesNotTryWhatIsKnownToFail) {
   EXPECT_TRUE(machine.scene().controllers[0].weak_passages.empty()) << "more than it takes";
 }
 
-// Damping next to none, a bow besides the unbalance, gravity on the shaft, drag, weak and strong
-// motors: each passes, gives up or is refused, and none sits.
+// Nearly no damping, a bow besides the unbalance, gravity on the shaft, drag, weak and strong
+// motors: each passes, aborts or is rejected, and none stays captured.
 TEST(SupervisedSpeed, NeverSitsWhateverTheRotor) {
   std::mt19937 random(7);
   const auto between = [&](double low, double high) {
@@ -163,7 +163,7 @@ TEST(SupervisedSpeed, NeverSitsWhateverTheRotor) {
     const double mass = between(1.0, 10.0);
     const bool undamped = i % 3 == 0;
     const double zeta = undamped ? between(1e-7, 1e-4) : between(2e-3, 5e-2);
-    // What a steady whirl takes at p is m p^2 e^2 / (2 zeta).
+    // The torque of a steady whirl at p is m p^2 e^2 / (2 zeta).
     const double eccentricity =
         undamped ? between(1e-5, 2e-4)
                  : std::sqrt(2.0 * zeta * machine.torque * between(0.3, 8.0) / (mass * p * p));

@@ -1,5 +1,5 @@
-// Inputs of a running twin: what a scene sets acts from its start, a command from the next step on
-// until its time-out, and members of an ensemble feel the same as the system.
+// Inputs of a running twin: the setting of a scene acts from the start, a command from the next
+// step until its time-out, and samples of an ensemble receive the same input as the system.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +54,7 @@ TEST(TwinInputs, CommandActsFromTheNextStepUntilItsTimeOut) {
   for (int i = 0; i < 50; ++i) {
     twin.step();
   }
-  // What was pushed for 0.1 s swings on by itself.
+  // After a push of 0.1 s it swings freely.
   EXPECT_NEAR(xOf(twin), pushed(4.3, 0.15) - pushed(4.3, 0.05), 1e-15);
   EXPECT_FALSE(twin.setInput(0, 0, NAN, kMillisecond));
   EXPECT_FALSE(twin.setInput(0, 0, 1.0, 0));

@@ -1,4 +1,4 @@
-// The twin keeps time exactly, repeats itself bit for bit, and lets one system fail alone.
+// The twin keeps exact time, is bit-reproducible, and lets one system fail without the others.
 #include "twin/twin.h"
 
 #include <gtest/gtest.h>

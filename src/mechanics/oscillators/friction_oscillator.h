@@ -4,17 +4,17 @@
 //
 //   T = m x'^2 / 2,   V = K x^2 / 2,   K = mu m g / (a - mu h)
 //
-// from R1 + R2 = m g and the moments about the mass centre, h above the contacts:
-// R1 - R2 = -m g x / (a - mu h), Q = mu (R1 - R2) = -K x. Friction of constant direction is a
-// function of the position alone, so it has a potential and m x'^2 / 2 + K x^2 / 2 is conserved,
-// although nothing stores that energy: the rollers' drives give and take it. Rollers that turn
-// outwards (roller_speed < 0) have mu -> -mu and drive the plank away. Rollers at rest
-// (roller_speed = 0) leave no direction of sliding: no friction here, and `sliding` is broken.
+// from R1 + R2 = m g and the moments about the mass centre, h above the contacts: R1 - R2 = -m g x
+// / (a - mu h), Q = mu (R1 - R2) = -K x. Friction of constant direction is a function of the
+// position alone, so it has a potential and m x'^2 / 2 + K x^2 / 2 is conserved, although nothing
+// stores that energy: the rollers' drives give and take it. Rollers that turn outwards
+// (roller_speed < 0) have mu -> -mu and drive the plank away. Rollers at rest (roller_speed = 0)
+// leave no direction of sliding: no friction here, and `sliding` is violated.
 //
-// Any step that resolves sqrt(K/m) will do. It does not know of sticking: where |x'| reaches
-// |roller_speed| the condition `sliding` is broken and the motion computed goes on as if the plank
-// still slid; sticking_friction_oscillator.h is the form that sticks. Likewise a plank that has
-// left a roller (`contact`) or tips over it (`no_tipping`: a < mu h, K < 0) is computed on.
+// Any step that resolves sqrt(K/m) will do. Sticking is not modelled: where |x'| reaches
+// |roller_speed| the condition `sliding` is violated and the computed motion continues as if the
+// plank still slid; StickingFrictionOscillator is the form that sticks. Likewise a plank that
+// has left a roller (`contact`) or tips over it (`no_tipping`: a < mu h, K < 0) is computed on.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +25,9 @@
 
 #include "mechanics/dry_friction.h"
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/reaction.h"
 #include "mechanics/sketch.h"
 
@@ -72,33 +72,35 @@ struct FrictionOscillator {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     return (0.5 * mass) * (v[0] * v[0]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     const double mu = slidingFriction();
     return (0.5 * mu * mass * gravity / (half_spacing - mu * height)) * (q[0] * q[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>&,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return {};
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
-                                              const std::array<S, kDof>&, const Moment<S>&) const {
+                                              const std::array<S, kDof>&,
+                                              const EvaluationPoint<S>&) const {
     return {};
   }
 
   std::vector<Reaction> reactions(const std::array<double, kDof>& q,
                                   const std::array<double, kDof>&, const std::array<double, kDof>&,
-                                  const Moment<double>&) const {
+                                  const EvaluationPoint<double>&) const {
     return named(normalForces<double>(q[0], slidingFriction(), -slidingFriction()));
   }
   std::vector<Condition> conditions(const std::array<double, kDof>& q,
                                     const std::array<double, kDof>& v,
-                                    const std::array<double, kDof>&, const Moment<double>&) const {
+                                    const std::array<double, kDof>&,
+                                    const EvaluationPoint<double>&) const {
     const double mu = slidingFriction();
     return {contact(normalForces<double>(q[0], mu, -mu)),
             noTipping(mu),
@@ -106,7 +108,7 @@ struct FrictionOscillator {
              "the plank is as fast as a roller and would stick to it"}};
   }
 
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>& at) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>& at) const {
     const double a = half_spacing;
     const double roller = 0.35 * a;
     const double turned = roller_speed * at.time / roller;  // right-handed about y: tops towards +x
@@ -181,13 +183,13 @@ struct RegularizedFrictionOscillator : FrictionOscillator {
   }
 
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>&, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>&, const EvaluationPoint<S>&) const {
     return {};
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
                                               const std::array<S, kDof>& v,
-                                              const Moment<S>&) const {
+                                              const EvaluationPoint<S>&) const {
     const S t1 = leftFriction(v[0]);
     const S t2 = rightFriction(v[0]);
     const Normals<S> r = normalForces(q[0], t1, t2);
@@ -196,12 +198,14 @@ struct RegularizedFrictionOscillator : FrictionOscillator {
 
   std::vector<Reaction> reactions(const std::array<double, kDof>& q,
                                   const std::array<double, kDof>& v,
-                                  const std::array<double, kDof>&, const Moment<double>&) const {
+                                  const std::array<double, kDof>&,
+                                  const EvaluationPoint<double>&) const {
     return named(normalForces(q[0], leftFriction(v[0]), rightFriction(v[0])));
   }
   std::vector<Condition> conditions(const std::array<double, kDof>& q,
                                     const std::array<double, kDof>& v,
-                                    const std::array<double, kDof>&, const Moment<double>&) const {
+                                    const std::array<double, kDof>&,
+                                    const EvaluationPoint<double>&) const {
     const double t1 = leftFriction(v[0]);
     const double t2 = rightFriction(v[0]);
     return {contact(normalForces(q[0], t1, t2)), noTipping(0.5 * (t1 - t2))};
@@ -227,7 +231,7 @@ struct RegularizedFrictionOscillator : FrictionOscillator {
 //
 // With larger amplitudes than vs / p one roller holds the plank, at vs, until the other's friction
 // exceeds what it has; the amplitude is vs / p from then on, and the plank slides on both. Rollers
-// at rest (roller_speed = 0) are a floor: one contact, that of the left roller.
+// at rest (roller_speed = 0) act as a fixed surface: one contact, that of the left roller.
 
 struct StickingFrictionOscillator : FrictionOscillator {
   static constexpr bool kLinear = false;
@@ -255,26 +259,27 @@ struct StickingFrictionOscillator : FrictionOscillator {
   }
 
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>&, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>&, const EvaluationPoint<S>&) const {
     return {};
   }
   /// At full friction wherever it slides.
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
                                               const std::array<S, kDof>& v,
-                                              const Moment<S>&) const {
+                                              const EvaluationPoint<S>&) const {
     return {total(q[0], slidingShares(v[0]))};
   }
 
   std::vector<Reaction> reactions(const std::array<double, kDof>& q,
                                   const std::array<double, kDof>& v,
-                                  const std::array<double, kDof>& a, const Moment<double>&) const {
+                                  const std::array<double, kDof>& a,
+                                  const EvaluationPoint<double>&) const {
     return named(normals(q[0], v[0], a[0]));
   }
   std::vector<Condition> conditions(const std::array<double, kDof>& q,
                                     const std::array<double, kDof>& v,
                                     const std::array<double, kDof>& a,
-                                    const Moment<double>&) const {
+                                    const EvaluationPoint<double>&) const {
     const ContactNumbers share = slidingShares(v[0]);
     return {contact(normals(q[0], v[0], a[0])),
             noTipping(0.5 * friction_coefficient * (right(share) - share[0]))};

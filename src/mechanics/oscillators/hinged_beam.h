@@ -1,11 +1,11 @@
-// Uniform rigid beam on a hinge, with a spring at its middle and a dashpot at its end, under a load
-// spread evenly over it (lecture notes, "rigid beam"). The finite rotation of it: spring, dashpot
-// and load stay vertical.
+// Uniform rigid beam on a hinge, with a spring at its middle and a dashpot at its end, under a
+// uniform load (lecture notes, "rigid beam"). Finite rotation: spring, dashpot and load stay
+// vertical.
 //
 //   T = M l^2 theta'^2 / 6,   V = k (l sin(theta) / 2)^2 / 2,   D = c (l cos(theta) theta')^2 / 2
 //   Q = f(t) l^2 cos(theta) / 2,   f = f0 cos(Omega t) per length
 //
-// theta is counted from the beam's rest under its weight, in the sense of the load.
+// theta is measured from the beam's equilibrium under its weight, in the sense of the load.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/sketch.h"
 
 namespace whirl_twin {
@@ -66,29 +66,29 @@ struct HingedBeam {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     return (mass * length * length / 6.0) * (v[0] * v[0]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     const S stretch = (0.5 * length) * sin(q[0]);
     return (0.5 * stiffness) * (stretch * stretch);
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     const S end = length * (cos(q[0]) * v[0]);
     return (0.5 * damping) * (end * end);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
                                               const std::array<S, kDof>&,
-                                              const Moment<S>& at) const {
+                                              const EvaluationPoint<S>& at) const {
     return {(0.5 * length * length) * (load(at) * cos(q[0]))};
   }
 
   /// The load points down; so does a positive theta.
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>& at) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>& at) const {
     const auto along = [&](double part) {
       return SketchPoint{part * length * std::cos(q[0]), 0.0, -part * length * std::sin(q[0])};
     };
@@ -125,7 +125,7 @@ struct HingedBeam {
  protected:
   /// [N/m]
   template <class S>
-  WHIRL_TWIN_INLINE S load(const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S load(const EvaluationPoint<S>& at) const {
     return load_amplitude * cos(load_frequency * at.time);
   }
 };
@@ -150,18 +150,18 @@ struct SmallHingedBeam : HingedBeam {
   }
 
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     return (0.125 * stiffness * length * length) * (q[0] * q[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return (0.5 * damping * length * length) * (v[0] * v[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
                                               const std::array<S, kDof>&,
-                                              const Moment<S>& at) const {
+                                              const EvaluationPoint<S>& at) const {
     return {(0.5 * length * length) * load(at)};
   }
 };

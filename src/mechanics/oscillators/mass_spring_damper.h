@@ -11,9 +11,9 @@
 
 #include "mechanics/dry_friction.h"
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/reaction.h"
 #include "mechanics/sketch.h"
 
@@ -59,31 +59,33 @@ struct MassSpringDamper {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     return (0.5 * mass) * (v[0] * v[0]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     return (0.5 * stiffness) * (q[0] * q[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return (0.5 * damping) * (v[0] * v[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
-                                              const std::array<S, kDof>&, const Moment<S>&) const {
+                                              const std::array<S, kDof>&,
+                                              const EvaluationPoint<S>&) const {
     return {};
   }
 
   std::vector<Condition> conditions(const std::array<double, kDof>& q,
                                     const std::array<double, kDof>&,
-                                    const std::array<double, kDof>&, const Moment<double>&) const {
+                                    const std::array<double, kDof>&,
+                                    const EvaluationPoint<double>&) const {
     return {{"spring_length", "m", free_length + q[0], "the spring is compressed to zero length"}};
   }
 
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>&) const {
     const double l = free_length;
     const double body = 0.36 * l;
     const double floor = -0.5 * body;
@@ -129,7 +131,7 @@ struct RubbingMassSpringDamper : MassSpringDamper {
 
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return (0.5 * damping) * (v[0] * v[0]) + dryDissipation(friction_force, friction_width, v[0]);
   }
   DryContacts<kDof> dryContacts() const {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/reaction.h"
 #include "mechanics/sketch.h"
 
@@ -57,7 +57,7 @@ struct RollingDisc {
               "static friction of the plane, to detect slip; 0: not checked", 0.0}}};
   }
 
-  /// The radius: its equilibria are radians of rolling apart.
+  /// The radius: the distance between its equilibria is of the order of a radian of rolling.
   double naturalLength() const { return radius; }
 
   std::array<Input<kDof>, 1> inputs() const {
@@ -66,25 +66,26 @@ struct RollingDisc {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     const double ratio = offset / radius;
     return (0.5 * (disc_mass + disc_inertia / (radius * radius))) * (v[0] * v[0]) +
            (0.5 * offset_mass) *
                ((1.0 + ratio * ratio - 2.0 * ratio * cos((1.0 / radius) * q[0])) * (v[0] * v[0]));
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     return (0.5 * stiffness) * (q[0] * q[0]) +
            (offset_mass * gravity * offset) * (1.0 - cos((1.0 / radius) * q[0]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return (0.5 * damping) * (v[0] * v[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
-                                              const std::array<S, kDof>&, const Moment<S>&) const {
+                                              const std::array<S, kDof>&,
+                                              const EvaluationPoint<S>&) const {
     return {};
   }
 
@@ -92,7 +93,8 @@ struct RollingDisc {
   /// law on the disc and its off-centre mass.
   std::vector<Reaction> reactions(const std::array<double, kDof>& q,
                                   const std::array<double, kDof>& v,
-                                  const std::array<double, kDof>& a, const Moment<double>&) const {
+                                  const std::array<double, kDof>& a,
+                                  const EvaluationPoint<double>&) const {
     const double turn = q[0] / radius;
     const double rate = v[0] / radius;
     const double spin_up = a[0] / radius;
@@ -105,7 +107,7 @@ struct RollingDisc {
   std::vector<Condition> conditions(const std::array<double, kDof>& q,
                                     const std::array<double, kDof>& v,
                                     const std::array<double, kDof>& a,
-                                    const Moment<double>& at) const {
+                                    const EvaluationPoint<double>& at) const {
     const std::vector<Reaction> plane = reactions(q, v, a, at);
     std::vector<Condition> all{{"contact", "N", plane[0].value, "the disc lifts off its plane"}};
     if (friction_coefficient > 0.0) {
@@ -116,7 +118,7 @@ struct RollingDisc {
     return all;
   }
 
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>&) const {
     const double r = radius;
     const double wall = 3.4 * r;
     const double behind = 0.28 * r;  // spring and damper run behind the disc

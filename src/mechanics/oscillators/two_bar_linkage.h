@@ -1,5 +1,5 @@
 // Two equal bars in a V, hanging from a fixed pin to a roller at the same level, pulled outwards by
-// a force (lecture notes, "virtual work"; errata E01): rests at tan(theta) = 2 P / (m g).
+// a force (lecture notes, "virtual work"; errata E01): equilibrium at tan(theta) = 2 P / (m g).
 //
 //   T = m l^2 theta'^2 (1/3 + cos^2 theta),   V = -m g l cos(theta),   Q = 2 P l cos(theta)
 //   D = c theta'^2 / 2                          theta of each bar from the vertical
@@ -10,9 +10,9 @@
 #include <cstddef>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/sketch.h"
 
 namespace whirl_twin {
@@ -46,26 +46,27 @@ struct TwoBarLinkage {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     const S upright = cos(q[0]);
     return (bar_mass * bar_length * bar_length) * ((1.0 / 3.0 + upright * upright) * (v[0] * v[0]));
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     return -(bar_mass * gravity * bar_length) * cos(q[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return (0.5 * damping) * (v[0] * v[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
-                                              const std::array<S, kDof>&, const Moment<S>&) const {
+                                              const std::array<S, kDof>&,
+                                              const EvaluationPoint<S>&) const {
     return {(2.0 * pull * bar_length) * cos(q[0])};
   }
 
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>&) const {
     const double l = bar_length;
     const double roller = 0.07 * l;
     Sketch s;

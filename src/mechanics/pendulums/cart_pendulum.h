@@ -13,9 +13,9 @@
 
 #include "mechanics/dry_friction.h"
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/sketch.h"
 
 namespace whirl_twin {
@@ -90,20 +90,20 @@ struct CartPendulum {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     return (0.5 * (cart_mass + rod_mass)) * (v[0] * v[0]) +
            (0.5 * rod_mass * rod_length) * (cos(q[1]) * (v[0] * v[1])) +
            (rod_mass * rod_length * rod_length / 6.0) * (v[1] * v[1]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>& at) const {
     const S stretch = q[0] - support_amplitude * sin(support_frequency * at.time);
     return (0.5 * stiffness) * (stretch * stretch) +
            (0.5 * rod_mass * gravity * rod_length) * (1.0 - cos(q[1]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     S d = (0.5 * damping) * (v[0] * v[0]);
     if (friction_force != 0.0) {
       d = d + dryDissipation(friction_force, friction_width, v[0]);
@@ -118,13 +118,13 @@ struct CartPendulum {
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
                                               const std::array<S, kDof>&,
-                                              const Moment<S>& at) const {
+                                              const EvaluationPoint<S>& at) const {
     const S f = force_amplitude * cos(force_frequency * at.time);
     return {f, rod_length * (f * cos(q[1]))};
   }
 
   /// The arrows show the support's motion and the force, each as a part of its amplitude.
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>& at) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>& at) const {
     const double l = rod_length;
     const double behind = 0.08 * l;  // the cart runs behind its rod
     const double track = -0.17 * l;

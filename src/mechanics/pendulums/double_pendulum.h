@@ -1,6 +1,6 @@
 // Double pendulum: two arms in a vertical plane, each angle measured from the vertical (absolute
-// angles), exact (lecture notes, "double pendulum"; errata E11 and note i). By itself a pair of
-// point masses on massless rods; with centres of mass and inertias of their own, a pair of bodies.
+// angles), exact (lecture notes, "double pendulum"; errata E11 and note i). By default two point
+// masses on massless rods; with centres of mass and inertias given, two rigid bodies.
 //
 //   T = m1 |v1|^2 / 2 + I1 theta1'^2 / 2 + m2 |v2|^2 / 2 + I2 theta2'^2 / 2
 //   V = m1 g h1 + m2 g h2
@@ -12,12 +12,12 @@
 // (l1 theta1')^2 + (lc2 theta2')^2 + 2 l1 lc2 theta1' theta2' cos(theta1 - theta2), the last cosine
 // from the sines and cosines that the weights need anyway.
 //
-// Coulomb friction in the joints can hold them, s(w) = |w| (dry_friction.h). With a `coulomb_rate`
-// w0 > 0 it is rounded off: s(w) = sqrt(w^2 + w0^2) makes of the jump at w = 0 a moment
-// Mc w / sqrt(w^2 + w0^2), short of Mc by the share (w0 / w)^2 / 2. A joint that would stick then
-// creeps, at w0 M / sqrt(Mc^2 - M^2) under a moment M < Mc, so in the long run a stuck arm sinks to
-// where it hangs. Near standstill the joint is a damper Mc / w0: explicit methods need steps below
-// about 2 I w0 / Mc, I the inertia that it moves.
+// Coulomb friction in the joints can make them stick, s(w) = |w| (dry_friction.h). With a
+// `coulomb_rate` w0 > 0 it is regularized: s(w) = sqrt(w^2 + w0^2) makes of the jump at w = 0 a
+// moment Mc w / sqrt(w^2 + w0^2), short of Mc by the share (w0 / w)^2 / 2. A joint that would stick
+// then creeps, at w0 M / sqrt(Mc^2 - M^2) under a moment M < Mc, so in the long run a stuck arm
+// sinks to where it hangs. Near standstill the joint is a damper Mc / w0: explicit methods need
+// steps below about 2 I w0 / Mc, I the inertia that it moves.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,9 +30,9 @@
 
 #include "mechanics/dry_friction.h"
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/reaction.h"
 #include "mechanics/sketch.h"
 
@@ -61,12 +61,12 @@ struct DoublePendulum {
   double coulomb1 = 0.0;      ///< [N m], at the upper joint
   double coulomb2 = 0.0;      ///< [N m], at the lower joint
   double coulomb_rate = 0.0;  ///< [rad/s], w0: within it Coulomb friction is rounded off
-  // Of motors at the joints, which are a form of their own (motor_double_pendulum.h).
+  // Motors at the joints, a separate form (double_pendulum_forms.h).
   double motor_inertia1 = 0.0;  ///< [kg m^2], J1, of the rotor at the upper joint
   double motor_inertia2 = 0.0;  ///< [kg m^2], J2
   double gear_ratio1 = 0.0;     ///< [-], G1
   double gear_ratio2 = 0.0;     ///< [-], G2
-  // Of the air, a form of its own (dragged_double_pendulum.h).
+  // Air drag, a separate form (double_pendulum_forms.h).
   double drag1 = 0.0;        ///< [kg/m], drag of the upper arm per square of its speed
   double drag2 = 0.0;        ///< [kg/m], of the lower arm
   double drag_reach1 = 0.0;  ///< [m], upper joint to the point of the air drag on the upper arm
@@ -136,33 +136,34 @@ struct DoublePendulum {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 2>& q, const std::array<S, 2>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     return (0.5 * (mass1 * center1 * center1 + inertia1 + mass2 * length1 * length1)) *
                (v[0] * v[0]) +
            (0.5 * (inertia2 + mass2 * center2 * center2)) * (v[1] * v[1]) +
            (mass2 * length1 * center2) * (cosOfDifference(q[0], q[1]) * (v[0] * v[1]));
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const EvaluationPoint<S>&) const {
     return ((mass1 * center1 + mass2 * length1) * gravity) * (1.0 - cos(q[0])) +
            (mass2 * gravity * center2) * (1.0 - cos(q[1]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 2>&, const std::array<S, 2>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return jointDissipation(v[0], v[1] - v[0]);
   }
   DryContacts<kDof> dryContacts() const { return jointContacts({-1.0, 1.0}); }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, 2> force(const std::array<S, 2>&, const std::array<S, 2>&,
-                                           const Moment<S>&) const {
+                                           const EvaluationPoint<S>&) const {
     return {};
   }
 
   /// Forces of the joints on the arms that hang from them, by Newton's law: along the rod, positive
   /// where it is pulled, and their size.
   std::vector<Reaction> reactions(const std::array<double, 2>& q, const std::array<double, 2>& v,
-                                  const std::array<double, 2>& a, const Moment<double>&) const {
+                                  const std::array<double, 2>& a,
+                                  const EvaluationPoint<double>&) const {
     std::array<Eigen::Vector2d, 2> to_joint;  // along +x and up, from the arm towards its joint
     std::array<Eigen::Vector2d, 2> unit_acceleration;  // per length
     for (std::size_t i = 0; i < 2; ++i) {
@@ -182,7 +183,7 @@ struct DoublePendulum {
             {"joint_force_2", "N", joint2.norm()}};
   }
 
-  Sketch sketch(const std::array<double, 2>& q, const Moment<double>&) const {
+  Sketch sketch(const std::array<double, 2>& q, const EvaluationPoint<double>&) const {
     const double reach = length1 + length2;
     const SketchPoint joint = hangingPoint({}, length1, q[0]);
     const SketchPoint end = hangingPoint(joint, length2, q[1]);

@@ -48,7 +48,7 @@ struct DraggedDoublePendulum : DoublePendulum {
 
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 2>& q, const std::array<S, 2>& v,
-                                  const Moment<S>& at) const {
+                                  const EvaluationPoint<S>& at) const {
     return DoublePendulum::dissipation(q, v, at) + airDissipation(*this, q, v);
   }
 };
@@ -78,25 +78,26 @@ struct RelativeDoublePendulum : DoublePendulum {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 2>& q, const std::array<S, 2>& v,
-                              const Moment<S>& at) const {
+                              const EvaluationPoint<S>& at) const {
     return DoublePendulum::kinetic(absolute(q), absolute(v), at);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const EvaluationPoint<S>& at) const {
     return DoublePendulum::potential(absolute(q), at);
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 2>&, const std::array<S, 2>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return jointDissipation(v[0], v[1]);
   }
   DryContacts<kDof> dryContacts() const { return jointContacts({0.0, 1.0}); }
 
   std::vector<Reaction> reactions(const std::array<double, 2>& q, const std::array<double, 2>& v,
-                                  const std::array<double, 2>& a, const Moment<double>& at) const {
+                                  const std::array<double, 2>& a,
+                                  const EvaluationPoint<double>& at) const {
     return DoublePendulum::reactions(absolute(q), absolute(v), absolute(a), at);
   }
-  Sketch sketch(const std::array<double, 2>& q, const Moment<double>& at) const {
+  Sketch sketch(const std::array<double, 2>& q, const EvaluationPoint<double>& at) const {
     return DoublePendulum::sketch(absolute(q), at);
   }
 
@@ -114,7 +115,7 @@ struct RelativeDoublePendulum : DoublePendulum {
 //   T += J1 (G1 theta1')^2 / 2 + J2 (theta1' + G2 theta3')^2 / 2
 //
 // (B. Siciliano et al., Robotics, 2009, sec. 7.1.2); a gear that reverses has G < 0. Torques of the
-// motors are those at the joints. The air may act on the arms, as in dragged_double_pendulum.h.
+// motors are those at the joints. The air may act on the arms, as in DraggedDoublePendulum.
 
 struct MotorDoublePendulum : RelativeDoublePendulum {
   static constexpr std::array<Parameter<MotorDoublePendulum>, 21> parameters() {
@@ -123,7 +124,7 @@ struct MotorDoublePendulum : RelativeDoublePendulum {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 2>& q, const std::array<S, 2>& v,
-                              const Moment<S>& at) const {
+                              const EvaluationPoint<S>& at) const {
     return RelativeDoublePendulum::kinetic(q, v, at) +
            (0.5 * (motor_inertia1 * gear_ratio1 * gear_ratio1 + motor_inertia2)) * (v[0] * v[0]) +
            (0.5 * (motor_inertia2 * gear_ratio2 * gear_ratio2)) * (v[1] * v[1]) +
@@ -131,7 +132,7 @@ struct MotorDoublePendulum : RelativeDoublePendulum {
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 2>& q, const std::array<S, 2>& v,
-                                  const Moment<S>& at) const {
+                                  const EvaluationPoint<S>& at) const {
     return RelativeDoublePendulum::dissipation(q, v, at) +
            airDissipation(*this, absolute(q), absolute(v));
   }

@@ -1,12 +1,13 @@
-// Foucault's pendulum: a spherical pendulum in a frame that turns with the Earth, or on a table.
+// Foucault's pendulum: a spherical pendulum in a frame that rotates together with the Earth, or on
+// a turntable.
 //
 //   T = m |r' + W x r|^2 / 2,   V = -m g r_z,   D = c |n'|^2 / 2
 //   r = l n,   n = (x, y, -l) / sqrt(x^2 + y^2 + l^2)      x to the east, y to the north, z up
 //   W = w (0, cos f, sin f)                               f: latitude, w: rate of rotation
 //
-// x and y are where the thread points to on a floor that lies l below its pivot. Small swings keep
-// their plane among the stars, so that to the ground it turns at -w sin f: clockwise in the north.
-// g is that of the plumb line at the pivot.
+// x and y are where the thread meets the horizontal plane l below its pivot. Small swings keep
+// their plane in inertial space, so that relative to the ground it rotates at -w sin f: clockwise
+// in the north. g is that of the plumb line at the pivot.
 #pragma once
 
 #include <array>
@@ -14,9 +15,9 @@
 #include <cstddef>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/sketch.h"
 
 namespace whirl_twin {
@@ -54,7 +55,7 @@ struct FoucaultPendulum {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     const double level = rotation_rate * std::cos(latitude);
     const double upright = rotation_rate * std::sin(latitude);
     const S reach = reachOf(q);
@@ -66,12 +67,12 @@ struct FoucaultPendulum {
     return (0.5 * mass * length * length) * (east * east + north * north + up * up);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     return (mass * gravity * length) * (1.0 - length / reachOf(q));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     const S square = q[0] * q[0] + q[1] * q[1] + length * length;
     const S across = q[0] * v[1] - q[1] * v[0];
     return (0.5 * damping) * (((length * length) * (v[0] * v[0] + v[1] * v[1]) + across * across) /
@@ -79,12 +80,13 @@ struct FoucaultPendulum {
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
-                                              const std::array<S, kDof>&, const Moment<S>&) const {
+                                              const std::array<S, kDof>&,
+                                              const EvaluationPoint<S>&) const {
     return {};
   }
 
-  /// On a floor with its compass: the line points to the north.
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+  /// On the ground with a compass: the line points to the north.
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>&) const {
     const double l = length;
     const double floor = -1.12 * l;
     const double part = l / reachOf(q);

@@ -1,5 +1,6 @@
-// Kapitza's pendulum: a pendulum whose pivot is shaken up and down, y = a cos(Omega t). Fast enough
-// it stands on its head (A. Stephenson 1908; P. L. Kapitza, Zh. Eksp. Teor. Fiz. 21, 1951).
+// Kapitza's pendulum: a pendulum whose pivot is shaken up and down, y = a cos(Omega t). If that is
+// fast enough, the upright position is stable (A. Stephenson 1908; P. L. Kapitza, Zh. Eksp. Teor.
+// Fiz. 21, 1951).
 //
 //   T = m (l^2 theta'^2 + 2 l y' theta' sin(theta) + y'^2) / 2
 //   V = m g (l (1 - cos theta) + y),   D = c theta'^2 / 2
@@ -7,7 +8,7 @@
 // theta is measured from hanging. The mean motion is that of the potential
 //   V_mean = m g l (1 - cos theta) + m a^2 Omega^2 sin^2(theta) / 4,
 // for a << l and Omega >> sqrt(g/l): upright is stable from a^2 Omega^2 = 2 g l on. Equilibria are
-// sought in the mean motion; verdicts are those of the motion itself (analysis/floquet.h).
+// sought in the mean motion; stability is evaluated for the motion itself (analysis/floquet.h).
 #pragma once
 
 #include <array>
@@ -16,9 +17,9 @@
 #include <vector>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/sketch.h"
 
 namespace whirl_twin {
@@ -68,30 +69,30 @@ struct KapitzaPendulum {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 1>& q, const std::array<S, 1>& v,
-                              const Moment<S>& at) const {
+                              const EvaluationPoint<S>& at) const {
     const S lift = (-amplitude * frequency) * sin(frequency * at.time);
     return (0.5 * mass) * ((length * length) * (v[0] * v[0]) +
                            (2.0 * length) * (sin(q[0]) * (lift * v[0])) + lift * lift);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, 1>& q, const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, 1>& q, const EvaluationPoint<S>& at) const {
     const S across = sin(q[0]);
     return (mass * gravity) * (length * (1.0 - cos(q[0])) + amplitude * cos(frequency * at.time)) +
            (0.25 * mass * mean_rate * mean_rate) * (across * across);
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 1>&, const std::array<S, 1>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return (0.5 * damping) * (v[0] * v[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, 1> force(const std::array<S, 1>&, const std::array<S, 1>&,
-                                           const Moment<S>&) const {
+                                           const EvaluationPoint<S>&) const {
     return {};
   }
 
   /// The arrow shows the pivot's motion as a part of its amplitude.
-  Sketch sketch(const std::array<double, 1>& q, const Moment<double>& at) const {
+  Sketch sketch(const std::array<double, 1>& q, const EvaluationPoint<double>& at) const {
     const double l = length;
     const double shake = std::cos(frequency * at.time);
     const SketchPoint pivot{0.0, 0.0, amplitude * shake};

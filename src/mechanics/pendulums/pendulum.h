@@ -13,9 +13,9 @@
 
 #include "mechanics/dry_friction.h"
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/sketch.h"
 
 namespace whirl_twin {
@@ -56,16 +56,16 @@ struct Pendulum {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 1>&, const std::array<S, 1>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     return (0.5 * (inertia + mass * length * length)) * (v[0] * v[0]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, 1>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, 1>& q, const EvaluationPoint<S>&) const {
     return (mass * gravity * length) * (1.0 - cos(q[0]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 1>&, const std::array<S, 1>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     S d = (0.5 * damping) * (v[0] * v[0]);
     if (coulomb != 0.0) {
       d = d + dryDissipation(coulomb, coulomb_rate, v[0]);
@@ -79,11 +79,11 @@ struct Pendulum {
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, 1> force(const std::array<S, 1>&, const std::array<S, 1>&,
-                                           const Moment<S>&) const {
+                                           const EvaluationPoint<S>&) const {
     return {};
   }
 
-  Sketch sketch(const std::array<double, 1>& q, const Moment<double>&) const {
+  Sketch sketch(const std::array<double, 1>& q, const EvaluationPoint<double>&) const {
     const SketchPoint end = hangingPoint({}, length, q[0]);
     Sketch s;
     s.size = 2.3 * length;

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/reaction.h"
 #include "mechanics/sketch.h"
 
@@ -62,37 +62,39 @@ struct RodSlider {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     const S around = q[0] * v[1];
     return (0.5 * slider_mass) * (v[0] * v[0] + around * around) +
            (rod_mass * rod_length * rod_length / 6.0) * (v[1] * v[1]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     const S stretch = q[0] - free_length;
     return (0.5 * stiffness) * (stretch * stretch) -
            gravity * ((slider_mass * q[0] + 0.5 * rod_mass * rod_length) * cos(q[1]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>&,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return {};
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
-                                              const std::array<S, kDof>&, const Moment<S>&) const {
+                                              const std::array<S, kDof>&,
+                                              const EvaluationPoint<S>&) const {
     return {};
   }
 
   std::vector<Condition> conditions(const std::array<double, kDof>& q,
                                     const std::array<double, kDof>&,
-                                    const std::array<double, kDof>&, const Moment<double>&) const {
+                                    const std::array<double, kDof>&,
+                                    const EvaluationPoint<double>&) const {
     return {{"rod_end", "m", std::min(q[0], rod_length - q[0]),
              q[0] > 0.0 ? "the slider has left the rod at its end"
                         : "the slider has passed the pivot"}};
   }
 
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>&) const {
     const double reach = naturalLength();
     Sketch s;
     s.size = 2.3 * reach;

@@ -13,9 +13,9 @@
 #include <string>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/pendulums/turning_pendulum_sketch.h"
 
 namespace whirl_twin {
@@ -58,27 +58,28 @@ struct RotatingPendulum {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     const S across = sin(q[0]) * v[1];
     return (0.5 * mass * length * length) * (v[0] * v[0] + across * across) +
            (0.5 * hub_inertia) * (v[1] * v[1]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     return (mass * gravity * length) * (1.0 - cos(q[0]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return (0.5 * damping) * (v[0] * v[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
-                                              const std::array<S, kDof>&, const Moment<S>&) const {
+                                              const std::array<S, kDof>&,
+                                              const EvaluationPoint<S>&) const {
     return {};
   }
 
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>&) const {
     return turningPendulumSketch(length, q[0], q[1], 0.3 * length);
   }
 };

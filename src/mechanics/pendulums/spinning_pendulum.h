@@ -11,8 +11,8 @@
 #include <cstddef>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/pendulums/turning_pendulum_sketch.h"
 
 namespace whirl_twin {
@@ -46,26 +46,26 @@ struct SpinningPendulum {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 1>& q, const std::array<S, 1>& v,
-                              const Moment<S>& at) const {
+                              const EvaluationPoint<S>& at) const {
     const S across = at.speed * sin(q[0]);
     return (0.5 * mass * length * length) * (v[0] * v[0] + across * across);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, 1>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, 1>& q, const EvaluationPoint<S>&) const {
     return (mass * gravity * length) * (1.0 - cos(q[0]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 1>&, const std::array<S, 1>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return (0.5 * damping) * (v[0] * v[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, 1> force(const std::array<S, 1>&, const std::array<S, 1>&,
-                                           const Moment<S>&) const {
+                                           const EvaluationPoint<S>&) const {
     return {};
   }
 
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>& at) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>& at) const {
     return turningPendulumSketch(length, q[0], at.angle, 0.14 * length);
   }
 };

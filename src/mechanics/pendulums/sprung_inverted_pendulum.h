@@ -10,9 +10,9 @@
 #include <cstddef>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/sketch.h"
 
 namespace whirl_twin {
@@ -48,28 +48,29 @@ struct SprungInvertedPendulum {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     return (0.5 * mass * length * length) * (v[0] * v[0]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     const S aside = sin(q[0]);
     return (0.5 * stiffness * length * length) * (aside * aside) -
            (mass * gravity * length) * (1.0 - cos(q[0]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return (0.5 * damping * length * length) * (v[0] * v[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
-                                              const std::array<S, kDof>&, const Moment<S>&) const {
+                                              const std::array<S, kDof>&,
+                                              const EvaluationPoint<S>&) const {
     return {};
   }
 
   /// The spring's far end runs in a guide, so that the spring stays level.
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>&) const {
     Sketch s;
     s.size = 2.6 * length;
     s.height = 2.5 * length;

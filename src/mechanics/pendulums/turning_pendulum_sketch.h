@@ -8,8 +8,8 @@
 
 namespace whirl_twin {
 
-/// @param length pivot to bob [m]  @param theta from hanging [rad]  @param plane of the plane [rad]
-/// @param hub radius of the disc that turns with the plane [m]
+/// @param length pivot to bob [m] @param theta from hanging [rad] @param plane of the plane [rad]
+/// @param hub radius of the disc that rotates together with the plane [m]
 inline Sketch turningPendulumSketch(double length, double theta, double plane, double hub) {
   const double post = 1.25 * length;  // behind the pendulum, clear of the bob
   const double arm = 0.3 * length;    // above the pivot

@@ -94,7 +94,7 @@ SpeedBearing tabulatedBearing(int node, const std::vector<BearingRow>& rows) {
 }
 
 SpeedBearing journalBearing(int node, const ShortJournalBearing& bearing, double load) {
-  const double slowest = bearing.speedAt(load, ShortJournalBearing::kMostEccentricity);
+  const double slowest = bearing.speedAt(load, ShortJournalBearing::kMaxEccentricity);
   return {node,
           [bearing, load](double speed) { return bearing.coefficients(load, speed); },
           {-slowest, slowest},

@@ -1,15 +1,15 @@
 // A Jeffcott rotor whose spin is free, driven by a constant torque: the unbalance acts back on the
-// spin, and a weak motor hangs below the critical speed (Sommerfeld effect; lecture notes,
+// spin, and a weak motor is captured below the critical speed (Sommerfeld effect; lecture notes,
 // "whirling shafts"; Dimentberg et al., Physics of Vibrations, 1997).
 //
 //   T = m/2 [(xi' - phi' eta)^2 + (eta' + phi' (xi + e))^2] + J phi'^2 / 2
 //   V = k (xi^2 + eta^2) / 2
 //   D = c/2 [(xi' - phi' eta)^2 + (eta' + phi' xi)^2] + d phi'^2 / 2,   Q = (0, 0, T_motor)
 //
-// xi, eta: the disc's centre in the frame that turns with it, xi towards the mass centre; x =
-// xi cos(phi) - eta sin(phi). In this frame a steady whirl stands still, so that the spin is cyclic
-// and each steady speed, T_motor = d w + c w r(w)^2 with up to three solutions, is an equilibrium
-// of the shape with a verdict of its own: the middle one is unstable. J is about the mass centre.
+// xi, eta: the disc's centre in the disc-fixed rotating frame, xi towards the mass centre; x = xi
+// cos(phi) - eta sin(phi). In this frame a steady whirl is stationary, so that the spin is cyclic
+// and each steady speed, T_motor = d w + c w r(w)^2 with up to three solutions, is a relative
+// equilibrium whose stability is evaluated: the middle one is unstable. J is about the mass centre.
 #pragma once
 
 #include <array>
@@ -17,9 +17,9 @@
 #include <cstddef>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/sketch.h"
 
 namespace whirl_twin {
@@ -66,31 +66,32 @@ struct FreeRotor {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     const S x = v[0] - v[2] * q[1];
     const S y = v[1] + v[2] * (q[0] + eccentricity);
     return (0.5 * mass) * (x * x + y * y) + (0.5 * polar_inertia) * (v[2] * v[2]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     return (0.5 * stiffness) * (q[0] * q[0] + q[1] * q[1]);
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     const S x = v[0] - v[2] * q[1];
     const S y = v[1] + v[2] * q[0];
     return (0.5 * damping) * (x * x + y * y) + (0.5 * drag) * (v[2] * v[2]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
-                                              const std::array<S, kDof>&, const Moment<S>&) const {
+                                              const std::array<S, kDof>&,
+                                              const EvaluationPoint<S>&) const {
     return {S(0.0), S(0.0), S(torque)};
   }
 
   /// Seen along the shaft, the disc twenty eccentricities wide: the bearing line, the disc's centre
   /// and its heavy spot, to scale.
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>&) const {
     const double e = naturalLength();
     const double c = std::cos(q[2]);
     const double d = std::sin(q[2]);

@@ -18,10 +18,10 @@
 
 #include "control/motor.h"
 #include "mechanics/dynamics.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/lagrangian_dynamics.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/reaction.h"
 
 namespace whirl_twin {
@@ -69,24 +69,24 @@ struct FreeSpin : Rotor {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                              const Moment<S>& at) const {
+                              const EvaluationPoint<S>& at) const {
     return Rotor::kinetic(whirl(q), whirl(v), shaft(q, v[kSpin], at)) +
            (0.5 * Rotor::polar_inertia) * (v[kSpin] * v[kSpin]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>& at) const {
     return Rotor::potential(whirl(q), shaft(q, S(0.0), at));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                                  const Moment<S>& at) const {
+                                  const EvaluationPoint<S>& at) const {
     return Rotor::dissipation(whirl(q), whirl(v), shaft(q, v[kSpin], at)) +
            (0.5 * motor.drag) * (v[kSpin] * v[kSpin]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
                                               const std::array<S, kDof>& v,
-                                              const Moment<S>& at) const {
+                                              const EvaluationPoint<S>& at) const {
     const std::array<S, kSpin> applied = Rotor::force(whirl(q), whirl(v), shaft(q, v[kSpin], at));
     std::array<S, kDof> all;
     for (std::size_t i = 0; i < kSpin; ++i) {
@@ -99,7 +99,7 @@ struct FreeSpin : Rotor {
   std::vector<Condition> conditions([[maybe_unused]] const std::array<double, kDof>& q,
                                     [[maybe_unused]] const std::array<double, kDof>& v,
                                     [[maybe_unused]] const std::array<double, kDof>& a,
-                                    [[maybe_unused]] const Moment<double>& at) const {
+                                    [[maybe_unused]] const EvaluationPoint<double>& at) const {
     if constexpr (HasConditions<Rotor>::value) {
       return Rotor::conditions(whirl(q), whirl(v), whirl(a), shaft(q, v[kSpin], at));
     } else {
@@ -118,8 +118,8 @@ struct FreeSpin : Rotor {
   }
   /// The shaft as its own coordinate moves it.
   template <class S>
-  static WHIRL_TWIN_INLINE Moment<S> shaft(const std::array<S, kDof>& q, const S& speed,
-                                           const Moment<S>& at) {
+  static WHIRL_TWIN_INLINE EvaluationPoint<S> shaft(const std::array<S, kDof>& q, const S& speed,
+                                                    const EvaluationPoint<S>& at) {
     return {at.time, q[kSpin], speed, S(0.0)};
   }
 };

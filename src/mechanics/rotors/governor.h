@@ -1,5 +1,5 @@
 // Centrifugal governor on an engine: the balls rise as the shaft turns faster and close the
-// throttle. The classical system of three states whose cubic Routh judges (lecture notes, "Routh
+// throttle. The classical third-order example of the Routh criterion (lecture notes, "Routh
 // criteria"): steady running is stable while c J / (m l^2) > 2 F / w0.
 //
 //   T = m l^2 theta'^2 / 2 + J phi'^2 / 2,   V = m g l (1 - cos theta),   D = c theta'^2 / 2
@@ -7,7 +7,7 @@
 //
 // The coupling of the balls into the shaft is neglected: neither their inertia about the vertical
 // nor the moment they need to keep up with the shaft loads the engine, whose inertia is far larger.
-// So the centrifugal moment on theta is an outside force here, and does work.
+// So the centrifugal moment on theta is an external force here, and does work.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@
 #include <cstddef>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/sketch.h"
 
 namespace whirl_twin {
@@ -57,28 +57,28 @@ struct Governor {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     return (0.5 * mass * length * length) * (v[0] * v[0]) + (0.5 * inertia) * (v[1] * v[1]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     return (mass * gravity * length) * (1.0 - cos(q[0]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return (0.5 * damping) * (v[0] * v[0]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
                                               const std::array<S, kDof>& v,
-                                              const Moment<S>&) const {
+                                              const EvaluationPoint<S>&) const {
     const S down = cos(q[0]);
     return {(mass * length * length) * (v[1] * v[1] * (sin(q[0]) * down)), torque * down - load};
   }
 
   /// The engine is the disc at the foot of the spindle.
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>&) const {
     const SketchPoint pivot{};
     const SketchPoint foot{0.0, 0.0, -1.3 * length};
     Sketch s;

@@ -7,17 +7,17 @@
 //   D = (c_x x'^2 + c_y y'^2) / 2 + c_i |v_S - w x r_S|^2 / 2 + c_f |v_S - lambda w x r_S|^2 / 2
 //   Q = q (-y, x)
 //
-// x, y: position of S in the fixed frame of the bearings, so that nothing is singular where the
-// whirl passes through the centre. b is a residual bow: the shaft's position of rest turns with it
-// (Nicholas, Gunter & Allaire, J. Engineering for Power 98, 1976). c_i acts on velocities seen from
-// the rotating shaft (internal damping) and makes the rotor unstable above w = p (1 + c / c_i)
-// (Kimball 1924). c_f is a fluid that turns with the part lambda of the shaft's speed, about one
-// half in a seal or bearing: unstable above w = p (1 + c / c_f) / lambda, whirling at about
-// lambda w (Muszynska, J. Sound and Vibration 110, 1986). q is a cross-coupled stiffness, kxy = +q,
-// kyx = -q, of any other origin: unstable above c p. The speed is the drive's.
+// x, y: position of S in the fixed frame of the bearings, so that there is no singularity where the
+// whirl passes through the centre. b is a residual bow: the shaft's unloaded position rotates with
+// the shaft (Nicholas, Gunter & Allaire, J. Engineering for Power 98, 1976). c_i acts on velocities
+// seen from the rotating shaft (internal damping) and makes the rotor unstable above w = p (1 + c /
+// c_i) (Kimball 1924). c_f is the damping of a fluid that rotates at lambda times the shaft's
+// speed, lambda about one half in a seal or bearing: unstable above w = p (1 + c / c_f) / lambda,
+// whirling at about lambda w (Muszynska, J. Sound and Vibration 110, 1986). q is a cross-coupled
+// stiffness, kxy = +q, kyx = -q, of any other origin: unstable above c p. The speed is the drive's.
 //
-// These are the causes that leave it linear; nonlinear_jeffcott_rotor.h and
-// journal_jeffcott_rotor.h have the others. All forms share the parameters of this one.
+// These are the linear effects; nonlinear_jeffcott_rotor.h and journal_jeffcott_rotor.h have the
+// nonlinear ones. All forms share the parameters of this one.
 #pragma once
 
 #include <array>
@@ -26,9 +26,9 @@
 #include <limits>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 
 namespace whirl_twin {
 
@@ -123,7 +123,7 @@ struct JeffcottRotor {
   }
   /// [rad], that the phase counts from.
   double phaseMark() const { return phase_mark; }
-  /// Without what turns with the shaft: where it rests, and how it is stable.
+  /// Without synchronous forces: for its equilibrium and stability.
   JeffcottRotor balanced() const { return withoutUnbalance(*this); }
   /// The same of a rotor made of this one.
   template <class Rotor>
@@ -141,7 +141,7 @@ struct JeffcottRotor {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 2>&, const std::array<S, 2>& v,
-                              const Moment<S>& at) const {
+                              const EvaluationPoint<S>& at) const {
     const S heavy_spot = at.angle + eccentricity_angle;
     const S tangential = eccentricity * at.speed;
     const S x = v[0] - tangential * sin(heavy_spot);
@@ -149,25 +149,25 @@ struct JeffcottRotor {
     return (0.5 * mass) * (x * x + y * y);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const EvaluationPoint<S>& at) const {
     const S bent = bending(q, at);
     return gravity == 0.0 ? bent : bent + (mass * gravity) * q[1];
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 2>& q, const std::array<S, 2>& v,
-                                  const Moment<S>& at) const {
+                                  const EvaluationPoint<S>& at) const {
     return externalDissipation(q, v, at) + internalDissipation(q, v, at);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, 2> force(const std::array<S, 2>& q, const std::array<S, 2>&,
-                                           const Moment<S>&) const {
+                                           const EvaluationPoint<S>&) const {
     return {-cross_coupling * q[1], cross_coupling * q[0]};
   }
 
  protected:
   /// Of a shaft deflected by r.
   template <class S>
-  WHIRL_TWIN_INLINE S bending(const std::array<S, 2>& r, const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S bending(const std::array<S, 2>& r, const EvaluationPoint<S>& at) const {
     if (bow == 0.0) {
       return (0.5 * stiffness) * (r[0] * r[0]) + (0.5 * stiffness_y) * (r[1] * r[1]);
     }
@@ -178,7 +178,7 @@ struct JeffcottRotor {
   /// Of what surrounds the disc.
   template <class S>
   WHIRL_TWIN_INLINE S externalDissipation(const std::array<S, 2>& q, const std::array<S, 2>& v,
-                                          const Moment<S>& at) const {
+                                          const EvaluationPoint<S>& at) const {
     const S d = (0.5 * damping) * (v[0] * v[0]) + (0.5 * damping_y) * (v[1] * v[1]);
     if (fluid_damping == 0.0) {
       return d;
@@ -191,7 +191,7 @@ struct JeffcottRotor {
   /// Of the shaft, where its deflection is r and changes by v.
   template <class S>
   WHIRL_TWIN_INLINE S internalDissipation(const std::array<S, 2>& r, const std::array<S, 2>& v,
-                                          const Moment<S>& at) const {
+                                          const EvaluationPoint<S>& at) const {
     const S x = v[0] + at.speed * r[1];
     const S y = v[1] - at.speed * r[0];
     return (0.5 * internal_damping) * (x * x + y * y);

@@ -44,24 +44,25 @@ struct FilmlessJeffcottRotor : JeffcottRotor {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                              const Moment<S>& at) const {
+                              const EvaluationPoint<S>& at) const {
     const S disc = JeffcottRotor::kinetic(std::array<S, 2>{q[0], q[1]}, {v[0], v[1]}, at);
     return disc + (0.5 * journal_mass) * (v[2] * v[2] + v[3] * v[3]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>& at) const {
     const S bent = bending(deflection(q), at);
     return bent + gravity * (mass * q[1] + journal_mass * q[3]);
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                                  const Moment<S>& at) const {
+                                  const EvaluationPoint<S>& at) const {
     return externalDissipation(std::array<S, 2>{q[0], q[1]}, {v[0], v[1]}, at) +
            internalDissipation(deflection(q), deflection(v), at);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
-                                              const std::array<S, kDof>&, const Moment<S>&) const {
+                                              const std::array<S, kDof>&,
+                                              const EvaluationPoint<S>&) const {
     return {-cross_coupling * q[1], cross_coupling * q[0], S(0.0), S(0.0)};
   }
 
@@ -85,7 +86,7 @@ struct JournalJeffcottRotor : FilmlessJeffcottRotor {
   }
   template <class S>
   std::array<S, kDof> force(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                            const Moment<S>& at) const {
+                            const EvaluationPoint<S>& at) const {
     std::array<S, kDof> all = FilmlessJeffcottRotor::force(q, v, at);
     const FilmForce<S> film = bearing().force(q[2], q[3], v[2], v[3], at.speed);
     all[2] = 2.0 * film.x;
@@ -95,7 +96,8 @@ struct JournalJeffcottRotor : FilmlessJeffcottRotor {
 
   std::vector<Condition> conditions(const std::array<double, kDof>& q,
                                     const std::array<double, kDof>&,
-                                    const std::array<double, kDof>&, const Moment<double>&) const {
+                                    const std::array<double, kDof>&,
+                                    const EvaluationPoint<double>&) const {
     return {{"oil_film", "m", bearing_clearance - std::hypot(q[2], q[3]),
              "the journals touch their bearings"}};
   }

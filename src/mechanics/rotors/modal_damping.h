@@ -1,9 +1,9 @@
-// Damping that is known by mode, as a test tells it, and does not turn with the shaft.
+// Modal damping, as identified in a test, that does not rotate with the shaft.
 //
-// With the modes Phi of the rotor at rest on its bearings, undamped, Phi^T M Phi = 1 and
-// Phi^T K Phi = diag(w^2), C = M Phi diag(2 zeta w) Phi^T M gives each the ratio zeta(w) and
-// couples none (Clough and Penzien, Dynamics of Structures, 1993). Motions without stiffness have
-// none.
+// With the modes Phi of the rotor at rest on its bearings, undamped, Phi^T M Phi = 1 and Phi^T K
+// Phi = diag(w^2), C = M Phi diag(2 zeta w) Phi^T M gives each mode the ratio zeta(w) and couples
+// none (Clough and Penzien, Dynamics of Structures, 1993). Rigid-body motions without stiffness are
+// undamped.
 #pragma once
 
 #include <Eigen/Core>

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "algebra/dense.h"
-#include "messages/refusal.h"
+#include "messages/input_error.h"
 
 namespace whirl_twin {
 
@@ -42,7 +42,7 @@ MatrixXd followingShapes(const MatrixXd& stiffness, const std::vector<Index>& li
   const Cholesky factor(unit.asDiagonal() * own * unit.asDiagonal());
   if (!unit.allFinite() || !factor.succeeded() ||
       !(factor.lower().diagonal().cwiseAbs2().minCoeff() > kFreePivot)) {
-    throw Refusal("a massless part of the rotor is not supported by springs");
+    throw InputError("a massless part of the rotor is not supported by springs");
   }
   const MatrixXd pulled = unit.asDiagonal() * MatrixXd(stiffness(light, moving));
   const MatrixXd follow = unit.asDiagonal() * factor.solveUpper(factor.solveLower(pulled));
@@ -109,7 +109,7 @@ MovingCoordinates movingCoordinates(const MatrixXd& mass, const MatrixXd& stiffn
     std::transform(rates.begin(), rates.end(), std::back_inserter(others), in);
   }
   if (moving.size() == massive.size()) {
-    throw Refusal("no free coordinate has a mass");
+    throw InputError("no free coordinate has a mass");
   }
   MatrixXd shapes = followingShapes(spring, light, moving);
   for (std::vector<Index> more = resisted(others, shapes, light); !more.empty();

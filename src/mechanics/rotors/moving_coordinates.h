@@ -1,11 +1,11 @@
-// Which of a shaft's coordinates move as coordinates of their own. Those that a rigid support holds
-// do not: they are struck out, or go along with the pedestal that the support stands on. Those
-// without inertia follow the others at once where nothing but springs acts on them,
+// The independent coordinates of a shaft. Those fixed by a rigid support are eliminated, or move
+// with the pedestal below the support. Massless ones on which only springs act are condensed
+// statically,
 //
 //   K_cc q_c + K_ch q_h = 0,   q_c = -K_cc^-1 K_ch q_h   (J. Guyan, AIAA J. 3, 1965),
 //
-// which is exact there. Damping, bearings that follow the speed, turning forces and films give such
-// a coordinate a rate of its own: it stays, with a mass of kNegligible of the rotor's.
+// which is exact there. Damping, speed-dependent bearings, synchronous forces and fluid films give
+// such a coordinate its own rate: it is retained, with a mass of kNegligible times the rotor's.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ namespace whirl_twin {
 /// The mass that a coordinate without any is given where it cannot follow the others. [-]
 constexpr double kNegligible = 1.0e-9;
 
-/// What a rigid support does to one coordinate.
+/// The effect of a rigid support on one coordinate.
 struct HeldCoordinate {
   static constexpr Eigen::Index kGround = -1;
 
@@ -35,9 +35,9 @@ struct MovingCoordinates {
 /// q = shapes * q of those that are not held, ascending. [n x free]
 Eigen::MatrixXd supportedShapes(Eigen::Index n, const std::vector<HeldCoordinate>& held);
 
-/// `mass` and `stiffness` [n x n] at rest; `rates`: matrices [n x n] of all forces besides;
-/// `acted`: the coordinates that other forces act on. Throws Refusal where a part without mass is
-/// not held, and where nothing is left that moves.
+/// `mass` and `stiffness` [n x n] at rest; `rates`: matrices [n x n] of all other forces; `acted`:
+/// the coordinates that other forces act on. Throws InputError where a massless part is
+/// unsupported, and where no coordinate can move.
 MovingCoordinates movingCoordinates(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness,
                                     const std::vector<Eigen::MatrixXd>& rates,
                                     const std::vector<bool>& acted,

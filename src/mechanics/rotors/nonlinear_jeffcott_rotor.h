@@ -17,8 +17,8 @@
 //   N = k_r (|r| - clearance), a damper d_r across it, friction mu N u_s / sqrt(u_s^2 + kSlip^2)
 //
 // against the sliding of the surface, u_s = v_tangential + w R. The stator's energy is in V. A step
-// must resolve the contact, p_r = sqrt((k + k_r) / m): p_r h <= 0.1 keeps the energy within
-// 1e-3 (no method sees the instant of touching, so that the order is 2 there).
+// must resolve the contact, p_r = sqrt((k + k_r) / m): p_r h <= 0.1 keeps the energy within 1e-3
+// (no method locates the instant of contact, so that the order is 2 there).
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ struct NonlinearJeffcottRotor : JeffcottRotor {
   NonlinearJeffcottRotor balanced() const { return withoutUnbalance(*this); }
 
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const EvaluationPoint<S>& at) const {
     const S v = JeffcottRotor::potential(q, at);
     const S squared = q[0] * q[0] + q[1] * q[1];
     if (!touches(squared)) {
@@ -50,7 +50,7 @@ struct NonlinearJeffcottRotor : JeffcottRotor {
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 2>& q, const std::array<S, 2>& v,
-                                  const Moment<S>& at) const {
+                                  const EvaluationPoint<S>& at) const {
     S d = JeffcottRotor::dissipation(q, v, at);
     const S squared = q[0] * q[0] + q[1] * q[1];
     if (loss_factor > 0.0) {
@@ -70,7 +70,7 @@ struct NonlinearJeffcottRotor : JeffcottRotor {
 
   template <class S>
   WHIRL_TWIN_INLINE S hysteresis(const std::array<S, 2>& q, const std::array<S, 2>& v,
-                                 const Moment<S>& at, const S& squared) const {
+                                 const EvaluationPoint<S>& at, const S& squared) const {
     const double p = std::sqrt(stiffness / mass);
     if (squared > 0.0) {
       const S x = v[0] + at.speed * q[1];
@@ -89,8 +89,8 @@ struct NonlinearJeffcottRotor : JeffcottRotor {
   }
 
   template <class S>
-  WHIRL_TWIN_INLINE S rub(const std::array<S, 2>& q, const std::array<S, 2>& v, const Moment<S>& at,
-                          const S& squared) const {
+  WHIRL_TWIN_INLINE S rub(const std::array<S, 2>& q, const std::array<S, 2>& v,
+                          const EvaluationPoint<S>& at, const S& squared) const {
     const S r = sqrt(squared);
     const S radial = (q[0] * v[0] + q[1] * v[1]) / r;
     const S sliding = (q[0] * v[1] - q[1] * v[0]) / r + rotor_radius * at.speed;

@@ -18,9 +18,9 @@
 #include <cstddef>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 
 namespace whirl_twin {
 
@@ -37,7 +37,7 @@ struct RigidDisc {
   double stiffness_displacement = 0.0;  ///< [N/m], k11
   double stiffness_coupling = 0.0;      ///< [N], k12: force by slope
   double stiffness_rotation = 0.0;      ///< [N m], k22
-  double stiffness_asymmetry = 0.0;     ///< [-], k (1 +- it) along axes that turn with the shaft
+  double stiffness_asymmetry = 0.0;     ///< [-], k (1 +- it) along axes fixed in the shaft
   double damping_displacement = 0.0;    ///< [N s/m], external
   double damping_rotation = 0.0;        ///< [N m s], external
   double internal_damping = 0.0;        ///< [s], of the shaft's material, over its stiffness
@@ -90,8 +90,8 @@ struct RigidDisc {
     return (0.5 * stiffness_displacement) * (s * s) + stiffness_coupling * (s * b) +
            (0.5 * stiffness_rotation) * (b * b);
   }
-  /// Of the disc, the velocity of S being (vx, vy) and that of the slopes (bx, by), in axes that
-  /// stand at `mark` [rad] behind the shaft's mark.
+  /// Kinetic energy of the disc, with velocity (vx, vy) of S and rates (bx, by) of the slopes, in
+  /// axes at an angle `mark` [rad] behind the shaft's phase reference.
   template <class S>
   WHIRL_TWIN_INLINE S kineticOf(const S& vx, const S& vy, const S& bx, const S& by, const S& mark,
                                 const S& speed) const {

@@ -24,7 +24,7 @@ struct RigidDiscRotor : RigidDisc {
   static constexpr auto parameters() { return inherited<RigidDiscRotor>(RigidDisc::parameters()); }
   /// [rad], that the phase counts from.
   double phaseMark() const { return phase_mark; }
-  /// Without what turns with the shaft.
+  /// Without synchronous forces.
   RigidDiscRotor balanced() const {
     RigidDiscRotor same = *this;
     same.eccentricity = same.skew = 0.0;
@@ -40,16 +40,16 @@ struct RigidDiscRotor : RigidDisc {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
-                              const Moment<S>& at) const {
+                              const EvaluationPoint<S>& at) const {
     return kineticOf(v[0], v[1], v[3], -v[2], at.angle, at.speed);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>&) const {
     return bending(q[0], q[3]) + bending(q[1], -q[2]) + (mass * gravity) * q[1];
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                                  const Moment<S>& at) const {
+                                  const EvaluationPoint<S>& at) const {
     const S external = (0.5 * damping_displacement) * (v[0] * v[0] + v[1] * v[1]) +
                        (0.5 * damping_rotation) * (v[2] * v[2] + v[3] * v[3]);
     if (internal_damping == 0.0) {
@@ -62,21 +62,20 @@ struct RigidDiscRotor : RigidDisc {
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
                                               const std::array<S, kDof>& v,
-                                              const Moment<S>& at) const {
+                                              const EvaluationPoint<S>& at) const {
     const S spin = polar_inertia * at.speed;
     return {S(0.0), S(0.0), -(spin * v[3]), spin * v[2]};
   }
 };
 
-// A rigid disc that tilts on a shaft that need not be round, in the frame that turns with the shaft
-// (rigid_disc.h): there the two stiffnesses k (1 + mu) along xi and k (1 - mu) along eta stand
-// still, and so does a synchronous whirl.
+// A rigid disc that tilts on a shaft that need not be round, in the shaft-fixed rotating frame
+// (rigid_disc.h): there the two stiffnesses k (1 + mu) along xi and k (1 - mu) along eta are
+// constant, and a synchronous whirl is stationary.
 //
-// xi, eta and the tilts alpha, beta are components along axes that stand at the shaft's angle;
-// velocities in the energies are those seen from the bearings, q' + w x q. The bearings are alike
-// in all directions. Without external damping the rotor is unstable between its two critical
-// speeds, k (1 -+ mu) = m w^2 for a disc that does not tilt (Smith, Proc. Royal Society A 142,
-// 1933).
+// xi, eta and the tilts alpha, beta are components along axes at the shaft's angle; velocities in
+// the energies are those in the fixed frame, q' + w x q. The bearings are isotropic. Without
+// external damping the rotor is unstable between its two critical speeds, k (1 -+ mu) = m w^2 for a
+// disc that does not tilt (Smith, Proc. Royal Society A 142, 1933).
 
 struct TurningRigidDiscRotor : RigidDisc {
   static constexpr std::array<Coordinate, kDof> kCoordinates{
@@ -96,19 +95,19 @@ struct TurningRigidDiscRotor : RigidDisc {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                              const Moment<S>& at) const {
+                              const EvaluationPoint<S>& at) const {
     const S& w = at.speed;
     return kineticOf(v[0] - w * q[1], v[1] + w * q[0], v[3] + w * q[2], w * q[3] - v[2], S(0.0), w);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>& at) const {
     const S bent = stiff() * bending(q[0], q[3]) + soft() * bending(q[1], -q[2]);
     return gravity == 0.0 ? bent
                           : bent + (mass * gravity) * (q[0] * sin(at.angle) + q[1] * cos(at.angle));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                                  const Moment<S>& at) const {
+                                  const EvaluationPoint<S>& at) const {
     const S& w = at.speed;
     const S x = v[0] - w * q[1];
     const S y = v[1] + w * q[0];
@@ -121,7 +120,7 @@ struct TurningRigidDiscRotor : RigidDisc {
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
                                               const std::array<S, kDof>& v,
-                                              const Moment<S>& at) const {
+                                              const EvaluationPoint<S>& at) const {
     const S& w = at.speed;
     const S spin = polar_inertia * w;
     return {S(0.0), S(0.0), -(spin * (v[3] + w * q[2])), spin * (v[2] - w * q[3])};

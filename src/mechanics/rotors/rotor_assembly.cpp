@@ -350,7 +350,7 @@ RotorAssembly RotorAssembly::in(const MatrixXd& shapes) const {
   return r;
 }
 
-LinearRotor RotorAssembly::linearRotor(std::shared_ptr<const UnreducedRotor> unreduced) const {
+LinearRotor RotorAssembly::linearRotor(std::shared_ptr<const FullOrderRotor> unreduced) const {
   LinearRotor rotor;
   rotor.matrices =
       AssembledMatrices{std::make_shared<const RotorAssembly>(*this), std::move(unreduced)};

@@ -1,17 +1,17 @@
 // A flexible rotor of shaft elements, rigid discs and bearings, assembled from node to node.
 //
-//   M q'' + (C + G0 + w G1) q' + (K + N0 + w N1) q + sum over bearings that follow the speed
+//   M q'' + (C + G0 + w G1) q' + (K + N0 + w N1) q + sum over speed-dependent bearings
 //     = unbalance + weight
 //
-// q: x, y, alpha, beta of node 0, then of node 1 ... (shaft_element.h), behind a node's those of
-// the pedestals that its bearings stand on, x and y of each. A disc of polar moment I_p has I_d
-// alpha'' + I_p w beta' and I_d beta'' - I_p w alpha'; askew by tau, the moment of unbalance (I_d -
-// I_p) tau turns with it (rigid_disc.h). A shaft's material with stress = E (strain + eta strain
-// rate), in the frame that turns with it, resists the velocity seen from there: eta K_shaft (q' - w
-// J q), J the quarter turn from x to y. Forward whirl faster than the shaft is damped, slower than
-// it is fed (Kimball 1924; Zorzi and Nelson, J. Engineering for Power 99, 1977); so is the joint of
-// a coupling. Damping in proportion to the mass and the stiffness of the elements does not turn,
-// nor does damping by the modes at rest (modal_damping.h).
+// q: x, y, alpha, beta of node 0, then of node 1 ... (shaft_element.h), after those of a node x and
+// y of each pedestal below its bearings. A disc of polar moment I_p has I_d alpha'' + I_p w beta'
+// and I_d beta'' - I_p w alpha'; askew by tau, the moment of unbalance (I_d - I_p) tau is
+// synchronous (rigid_disc.h). A shaft's material with stress = E (strain + eta strain rate), in the
+// rotating frame, resists the velocity relative to that frame: eta K_shaft (q' - w J q), J the
+// quarter turn from x to y. Forward whirl faster than the shaft is damped, slower whirl is
+// destabilized (Kimball 1924; Zorzi and Nelson, J. Engineering for Power 99, 1977); the joint of a
+// coupling acts likewise. Damping proportional to the mass and the stiffness of the elements acts
+// in the fixed frame, as does modal damping at rest (modal_damping.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -51,7 +51,7 @@ struct RotorBearing {
   BearingCoefficients coefficients;
 };
 
-/// Between the shaft and what a bearing of its node would stand on.
+/// Between the shaft and the body that carries a bearing of its node.
 struct RigidSupport {
   int node = 0;
   bool clamps = false;  ///< it holds the slope, too, as the ground does
@@ -74,13 +74,14 @@ struct SpeedBearing {
   DataSpeeds data = {};       ///< of its table
 };
 
-/// A body that moves across the shaft without turning. The bearings of its node stand on it, or a
-/// pedestal given before; it stands on the next, the last of a node on the ground.
+/// A body that translates transversely to the shaft without rotating. It carries the bearings of
+/// its node, or the pedestal given before; the next pedestal carries it, and the ground carries the
+/// last of a node.
 struct RotorPedestal {
   int node = 0;
   double mass_x = 0.0, mass_y = 0.0;  ///< [kg]
-  BearingCoefficients coefficients;   ///< between it and what it stands on
-  /// Besides, where they follow the shaft's speed [rad/s]; none: they do not.
+  BearingCoefficients coefficients;   ///< between it and the body that carries it
+  /// Additional speed-dependent coefficients, speed in [rad/s]; none: constant.
   std::function<BearingCoefficients(double speed)> over_speed = {};
   std::vector<double> knots = {};  ///< [rad/s], of those, as a SpeedBearing's
   DataSpeeds data = {};            ///< of those
@@ -119,9 +120,10 @@ struct FlexibleShaft {
   std::vector<double> positions() const;  ///< [m], of the nodes
 };
 
-struct UnreducedRotor;
+struct FullOrderRotor;
 
-/// Adds a bearing at `place` [dof x 2], x and y as place^T q: the matrices grow as wide as it is.
+/// Adds a bearing at `place` [dof x 2], x and y as place^T q: the bandwidth of the matrices grows
+/// as needed.
 void addBearing(const BearingCoefficients& bearing, const Eigen::MatrixXd& place,
                 BandedLinearization& matrices);
 
@@ -129,7 +131,7 @@ void addBearing(const BearingCoefficients& bearing, const Eigen::MatrixXd& place
 class RotorAssembly {
  public:
   /// In the coordinates that move (moving_coordinates.h). Throws std::logic_error for a node that
-  /// does not exist, Refusal for a part without mass that is not held.
+  /// does not exist, InputError for a part without mass that is not held.
   explicit RotorAssembly(const FlexibleShaft& shaft);
   /// In all, as if its rigid supports were not there; those without mass have none.
   static RotorAssembly unsupported(const FlexibleShaft& shaft);
@@ -153,13 +155,13 @@ class RotorAssembly {
   DataSpeeds dataSpeeds() const;
   /// f_0 [N] or [N m].
   const Eigen::VectorXd& load() const { return load_; }
-  /// Of what turns with the shaft (spin_coupling.h): N_1, and its damping there.
+  /// Of rotating damping (spin_coupling.h): N_1, and the damping in the rotating frame.
   const Eigen::MatrixXd& circulatoryPerSpeed() const { return circulatory_per_speed_; }
   const Eigen::MatrixXd& turningDamping() const { return turning_damping_; }
   /// With q = shapes * amplitudes. [dof x n]
   RotorAssembly in(const Eigen::MatrixXd& shapes) const;
   /// `unreduced`: what in() has made it of, with what else acts there.
-  LinearRotor linearRotor(std::shared_ptr<const UnreducedRotor> unreduced = nullptr) const;
+  LinearRotor linearRotor(std::shared_ptr<const FullOrderRotor> unreduced = nullptr) const;
 
  private:
   RotorAssembly() = default;
@@ -169,7 +171,7 @@ class RotorAssembly {
     Eigen::MatrixXd place;  ///< [dof x 2], of x and y
   };
 
-  /// Returns what the elements damp while they turn.
+  /// Returns the rotating damping of the elements.
   Eigen::MatrixXd addElements(const FlexibleShaft& shaft);
   void addSupports(const FlexibleShaft& shaft);
   void assemble(const FlexibleShaft& shaft);
@@ -193,7 +195,7 @@ class RotorAssembly {
 /// before it was reduced.
 struct AssembledMatrices {
   std::shared_ptr<const RotorAssembly> assembly;
-  std::shared_ptr<const UnreducedRotor> unreduced = nullptr;  ///< none: it has all coordinates
+  std::shared_ptr<const FullOrderRotor> unreduced = nullptr;  ///< none: it has all coordinates
   Linearization operator()(double speed) const { return assembly->matrices(speed); }
 };
 

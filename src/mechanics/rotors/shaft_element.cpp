@@ -226,7 +226,7 @@ class BothPlanes {
   Eigen::Matrix<double, 4, 2 * kNodeCoordinates> in_y_ = decltype(in_y_)::Zero();
 };
 
-/// Calls `take` with places [0, 1] along an element and the lengths that they stand for.
+/// Calls `take` with quadrature points [0, 1] along an element and their weights [m].
 template <class Take>
 void alongElement(double length, bool tapers, const Take& take) {
   const int parts = tapers ? kTaperParts : 1;

@@ -14,8 +14,8 @@
 // The shear strain is constant along an element: frequencies converge with n^-2 where shear counts
 // and with n^-4 without.
 //
-// An element may be of layers, a shaft with sleeves on it: their bending stiffnesses and masses add
-// up, and their shear stiffnesses with the coefficient of the whole section. A layer may taper
+// An element may have layers, a shaft with sleeves: their bending stiffnesses and masses add up,
+// and their shear stiffnesses with the coefficient of the whole section. A layer may taper
 // linearly; the shapes are then those of the beam as it tapers, bent by forces at its ends,
 //
 //   rotation' = (M + F (l-z)) / EI(z),   deflection' = rotation + F / kappa G A(z)
@@ -29,10 +29,10 @@
 //
 //   T times the integral of (d rotation_x' rotation_y - d rotation_y' rotation_x)
 //
-// What of this is not symmetric, T/2 at either end, cancels between elements of one torque.
+// The skew part, T/2 at either end, cancels between elements with the same torque.
 //
-// A flexible coupling is an element, too: two arms without mass, rigid, and in its middle a joint
-// that gives across the shaft and in bending, and turns with the shaft.
+// A flexible coupling is an element, too: two rigid massless arms and, in its middle, a joint that
+// is compliant in the transverse direction and in bending, and rotates together with the shaft.
 #pragma once
 
 #include <Eigen/Core>

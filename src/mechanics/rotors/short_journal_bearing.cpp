@@ -53,10 +53,10 @@ JournalPosition ShortJournalBearing::staticPosition(double load, double speed) c
 }
 
 BearingCoefficients ShortJournalBearing::coefficients(double load, double speed) const {
-  const double slowest = speedAt(load, kMostEccentricity);
+  const double slowest = speedAt(load, kMaxEccentricity);
   const double turning = std::fabs(speed);
   BearingCoefficients k = derivatives(*this, load, turning > slowest ? turning : slowest);
-  // Seen in a mirror x -> -x a shaft turns the other way.
+  // Under the reflection x -> -x a shaft rotates in the opposite direction.
   const double coupling = turning > slowest ? (speed < 0.0 ? -1.0 : 1.0) : speed / slowest;
   for (double* crossed : {&k.kxy, &k.kyx, &k.cxy, &k.cyx}) {
     *crossed *= coupling;

@@ -44,18 +44,18 @@ struct JournalPosition {
 };
 
 struct ShortJournalBearing {
-  static constexpr double kStillFilm = 1.0e-6;       ///< [1/s]
-  static constexpr double kThinnestFilm = 1.0e-4;    ///< [-], of 1 - e^2
-  static constexpr double kMostEccentricity = 0.95;  ///< of staticPosition(): slow shafts touch
+  static constexpr double kStillFilm = 1.0e-6;      ///< [1/s]
+  static constexpr double kThinnestFilm = 1.0e-4;   ///< [-], of 1 - e^2
+  static constexpr double kMaxEccentricity = 0.95;  ///< of staticPosition(): slow shafts touch
 
   double length = 0.0;     ///< [m]
   double diameter = 0.0;   ///< [m]
   double clearance = 0.0;  ///< [m], radial
   double viscosity = 0.0;  ///< [Pa s]
 
-  /// Force on a journal at x, y [m] from the bearing's centre that moves with vx, vy [m/s] and
-  /// turns with `speed` [rad/s]. Beyond 1 - e^2 = kThinnestFilm it is
-  /// that of a film which gets no thinner: the journal touches, and the equations do not hold.
+  /// Force on a journal at x, y [m] from the bearing's centre with velocity vx, vy [m/s] and
+  /// rotational speed `speed` [rad/s]. For 1 - e^2 < kThinnestFilm the film thickness is limited
+  /// from below: the journal touches, and the equations are invalid.
   template <class S>
   WHIRL_TWIN_INLINE FilmForce<S> force(const S& x, const S& y, const S& vx, const S& vy,
                                        const S& speed) const {
@@ -88,7 +88,7 @@ struct ShortJournalBearing {
   JournalPosition staticPosition(double load, double speed) const;
   /// About the static position under a load [N] along -y, at any speed [rad/s]; a shaft that turns
   /// backwards has the mirrored bearing. A slow shaft touches: below speedAt(load,
-  /// kMostEccentricity) direct coefficients are those of that speed, cross-coupled ones
+  /// kMaxEccentricity) direct coefficients are those of that speed, cross-coupled ones
   /// proportional to the speed.
   BearingCoefficients coefficients(double load, double speed) const;
 

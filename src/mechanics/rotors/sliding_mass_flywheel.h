@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "mechanics/elementary.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
 #include "mechanics/reaction.h"
 #include "mechanics/sketch.h"
 
@@ -69,7 +69,7 @@ struct SlidingMassFlywheel {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 3>& q, const std::array<S, 3>& v,
-                              const Moment<S>&) const {
+                              const EvaluationPoint<S>&) const {
     const S around1 = q[0] * v[2];
     const S around2 = q[1] * v[2];
     return (0.5 * inertia) * (v[2] * v[2]) +
@@ -77,30 +77,31 @@ struct SlidingMassFlywheel {
                (v[0] * v[0] + v[1] * v[1] + around1 * around1 + around2 * around2);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, 3>& q, const Moment<S>&) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, 3>& q, const EvaluationPoint<S>&) const {
     const S stretch1 = q[0] - free_length;
     const S stretch2 = q[1] - free_length;
     return (0.5 * stiffness) * (stretch1 * stretch1 + stretch2 * stretch2);
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 3>&, const std::array<S, 3>&,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return {};
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, 3> force(const std::array<S, 3>&, const std::array<S, 3>&,
-                                           const Moment<S>&) const {
+                                           const EvaluationPoint<S>&) const {
     return {};
   }
 
   std::vector<Condition> conditions(const std::array<double, 3>& q, const std::array<double, 3>&,
-                                    const std::array<double, 3>&, const Moment<double>&) const {
+                                    const std::array<double, 3>&,
+                                    const EvaluationPoint<double>&) const {
     return {{"slider_past_centre", "m", std::min(q[0], q[1]),
              "a mass has passed the centre of the wheel"}};
   }
 
-  /// Seen along the axis; phi turns from the vertical, counter-clockwise.
-  Sketch sketch(const std::array<double, 3>& q, const Moment<double>&) const {
+  /// View along the axis; phi from the vertical, counter-clockwise.
+  Sketch sketch(const std::array<double, 3>& q, const EvaluationPoint<double>&) const {
     const double unit = naturalLength();
     const double rim = 2.0 * unit;
     const auto onSpoke = [&](double radius) {
@@ -142,30 +143,30 @@ struct SymmetricSlidingMassFlywheel : SlidingMassFlywheel {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 2>& q, const std::array<S, 2>& v,
-                              const Moment<S>& at) const {
+                              const EvaluationPoint<S>& at) const {
     return SlidingMassFlywheel::kinetic(both(q), both(v), at);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const EvaluationPoint<S>& at) const {
     return SlidingMassFlywheel::potential(both(q), at);
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 2>&, const std::array<S, 2>&,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     return {};
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, 2> force(const std::array<S, 2>&, const std::array<S, 2>&,
-                                           const Moment<S>&) const {
+                                           const EvaluationPoint<S>&) const {
     return {};
   }
 
   std::vector<Condition> conditions(const std::array<double, 2>& q, const std::array<double, 2>& v,
                                     const std::array<double, 2>& a,
-                                    const Moment<double>& at) const {
+                                    const EvaluationPoint<double>& at) const {
     return SlidingMassFlywheel::conditions(both(q), both(v), both(a), at);
   }
-  Sketch sketch(const std::array<double, 2>& q, const Moment<double>& at) const {
+  Sketch sketch(const std::array<double, 2>& q, const EvaluationPoint<double>& at) const {
     return SlidingMassFlywheel::sketch(both(q), at);
   }
 

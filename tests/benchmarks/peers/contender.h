@@ -1,4 +1,5 @@
-// Whoever takes part: a solver with a ladder of settings, and one run of it with one of them.
+// A participant of the comparison: a solver with a ladder of settings, and one run of it with one
+// of them.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +25,7 @@ struct Output {
 class Run {
  public:
   virtual ~Run() = default;
-  /// What has to be computed once before any number of runs.
+  /// Computations needed once for any number of runs.
   virtual void prepare() {}
   /// Integrates from the scene's start; writes the coordinates of each sample, one after the other.
   /// False: the solver gave up.

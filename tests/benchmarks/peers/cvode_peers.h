@@ -20,7 +20,7 @@
 
 namespace whirl_twin::comparison {
 
-/// Equations that know their Jacobian, by columns; else CVODE takes differences.
+/// Detects equations with an analytic Jacobian, by columns; else CVODE uses differences.
 template <class Equations, class = void>
 struct HasJacobian : std::false_type {};
 template <class Equations>

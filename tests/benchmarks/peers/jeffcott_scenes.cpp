@@ -74,7 +74,7 @@ ComparedScene runUpScene() {
   Problem<RunUpEquations> problem{{}, {}, scene.output, 1.0};
   scene.reference = fineReference(problem, 120);
   problem.amplitude = amplitude(scene.reference, scene.output, scene.positions);
-  // The ramp goes on beyond the horizon: no corner within it.
+  // The ramp continues beyond the horizon: no breakpoint within it.
   addTwin(jeffcottText(fmt::format("speed: 0.0, profile: [{{speed: 300.0, max_acceleration: {}, "
                                    "dwell: 0.0}}]",
                                    RunUpEquations::kAcceleration)),

@@ -11,7 +11,7 @@ namespace whirl_twin::comparison {
 namespace {
 
 constexpr const char* kFile = "double_pendulum.xml";
-// Constraints are off altogether: there are none, and looking for contacts would cost time.
+// Constraints are disabled: there are none, and contact detection would take time.
 constexpr const char* kPendulum = R"(<mujoco>
   <compiler angle="radian"/>
   <option gravity="0 0 -9.81" integrator="RK4"><flag constraint="disable"/></option>

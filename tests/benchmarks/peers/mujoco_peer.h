@@ -1,8 +1,8 @@
 // MuJoCo on the double pendulum: its Runge-Kutta method of order 4, with a ladder of timesteps.
 //
-// It has no point masses: every body needs an inertia of its own, here 1e-12 kg m^2 beside
-// m l^2 = 1 kg m^2. That bounds its accuracy at about 1e-12 times what the motion makes of it. Its
-// joint angles are relative; the lower one is added to the upper before they are compared.
+// It has no point masses: every body needs a rotational inertia, here 1e-12 kg m^2 compared with
+// m l^2 = 1 kg m^2. That limits its accuracy to about 1e-12 times the sensitivity of the motion.
+// Its joint angles are relative; the lower one is added to the upper before they are compared.
 #pragma once
 
 #include <vector>

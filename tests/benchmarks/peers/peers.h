@@ -1,4 +1,4 @@
-// Every general solver that was found when this was built.
+// All general solvers available at build time.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What whirl_twin costs at equal accuracy beside general solvers, on the same equations.
+// Cost of whirl_twin at equal accuracy compared with general solvers, on the same equations.
 #include <cstdlib>
 #include <iostream>
 #include <string>

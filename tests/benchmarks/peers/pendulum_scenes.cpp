@@ -17,7 +17,7 @@ ComparedScene doublePendulumScene() {
   constexpr double kLower = 0.3;
   ComparedScene scene;
   scene.name = "Double pendulum";
-  scene.description = "unit masses and lengths, let go at (0.2, 0.3) rad";
+  scene.description = "unit masses and lengths, released at (0.2, 0.3) rad";
   scene.output = {0.24, 420, 2};
   scene.positions = {0, 1};
   Problem<DoublePendulumEquations> problem{{}, {kUpper, kLower, 0.0, 0.0}, scene.output, 1.0};

@@ -1,4 +1,4 @@
-// References: what the solvers are held against, in long double.
+// Reference solutions for the solvers, in long double.
 #pragma once
 
 #include <algorithm>

@@ -51,7 +51,7 @@ std::string ratio(const Best& peer, const Best& ours) {
 }
 
 void writeSummary(std::ostream& out, const std::vector<MeasuredScene>& scenes) {
-  out << "| scene | error | whirl_twin, CPU ms | best peer, CPU ms | ratio | preparing counted "
+  out << "| scene | error | whirl_twin, CPU ms | best peer, CPU ms | ratio | preparation included "
          "|\n|---|---|---|---|---|---|\n";
   for (const MeasuredScene& measured : scenes) {
     for (const double level : kLevels) {
@@ -71,7 +71,7 @@ void writeSummary(std::ostream& out, const std::vector<MeasuredScene>& scenes) {
   }
 }
 
-/// CPU ms of a contender at a level, its setting, and of a peer how many times ours that is.
+/// CPU ms of a contender at a level, its setting, and for a peer the ratio to ours.
 std::string cell(const MeasuredScene& measured, std::size_t index, double level) {
   const Contender& contender = measured.scene.contenders[index];
   const Point* point = cheapest(measured.curves[index], level);
@@ -96,7 +96,7 @@ void writeScene(std::ostream& out, const MeasuredScene& measured) {
   for (const double level : kLevels) {
     out << fmt::format(" {:.0e} |", level);
   }
-  out << " least error found |\n|---|---|---|---|---|\n";
+  out << " smallest error found |\n|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < measured.curves.size(); ++i) {
     const Contender& contender = scene.contenders[i];
     const char* mark = contender.ours ? "**" : "";

@@ -1,4 +1,4 @@
-// What was measured, as Markdown for people and as JSON for programs.
+// The measurements, as Markdown and as JSON.
 #pragma once
 
 #include <ostream>
@@ -14,11 +14,11 @@ struct MeasuredScene {
   std::vector<Curve> curves;  ///< of its contenders
 };
 
-/// What surrounded the measurement.
+/// Environment of the measurement.
 struct Circumstances {
   Peers peers;
   Effort effort;
-  double load_before = 0.0;  ///< processes that wanted a processor, mean over a minute
+  double load_before = 0.0;  ///< runnable processes, mean over a minute
   double load_after = 0.0;
 };
 

@@ -1,4 +1,4 @@
-// A scene of the comparison: the same motion for all who take part, and its reference.
+// A scene of the comparison: the same motion for all participants, and its reference.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 
 namespace whirl_twin::comparison {
 
-/// The motion itself, as far as we know it.
+/// The reference motion, with its accuracy.
 struct Reference {
   std::string origin;               ///< "closed form", ...
   std::vector<double> coordinates;  ///< of each sample, one after the other
-  double error = 0.0;               ///< [-], bound of its own, relative to the largest position
+  double error = 0.0;               ///< [-], its error bound, relative to the largest position
 };
 
 struct ComparedScene {
@@ -27,7 +27,7 @@ struct ComparedScene {
   std::vector<Contender> contenders;
 };
 
-/// What a peer integrates: see equations.h.
+/// The equations that a peer integrates: see equations.h.
 template <class Equations>
 struct Problem {
   Equations equations;

@@ -2,10 +2,10 @@
 //   M q'' + (C + G) q' + (K + N) q = Re[F e^(i w t)]
 // solved for q'' once, in long double.
 //
-// What is left of it at run time is a product with 40 x 80 numbers, written as one would who knows
-// shafts and needs speed: masses and stiffnesses do not couple the two planes of bending, dampers
-// and gyroscopic moments act on a few rates; so two thirds of the entries are zero and left out.
-// The rest goes in the widest vectors of the machine.
+// At run time only a product with 40 x 80 coefficients remains, optimized as an expert would by
+// hand: masses and stiffnesses do not couple the two planes of bending, dampers and gyroscopic
+// moments act on a few rates; so two thirds of the entries are zero and omitted. The others use the
+// widest vector registers of the machine.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,8 +38,8 @@ class TwoPlaneProduct {
   static constexpr std::size_t kRoom = 24;  ///< three vectors of eight
 
   TwoPlaneProduct() = default;
-  /// The rows of the first plane are those that `pattern`, of as many rows, couples with row 0.
-  /// Throws std::invalid_argument if there are not 20 of them and 20 others.
+  /// The rows of the first plane are those that `pattern`, with as many rows, couples with row 0.
+  /// Throws std::invalid_argument unless there are 20 of them and 20 others.
   TwoPlaneProduct(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& pattern);
 
   /// result = M x; the last two columns are multiplied by c and s.

@@ -43,8 +43,8 @@ std::string shaftText() {
       kSpeed);
 }
 
-/// From rest: the forced whirl, and the free motion that cancels it at the start, which goes by
-/// e^(A t) from sample to sample. Once more with e^(A t / 2)^2; their difference is the bound.
+/// From rest: the forced whirl, and the free motion that cancels it at the start, propagated by
+/// e^(A t) from sample to sample. Repeated with e^(A t / 2)^2; the difference is the error bound.
 Reference closedForm(const ShaftMatrices& matrices, const Output& output) {
   using Complex = std::complex<long double>;
   using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;

@@ -1,4 +1,5 @@
-// Ourselves: a scene of one system, stepped by a Twin with each integrator that its model has.
+// The whirl_twin participant: a scene of one system, stepped by a Twin with each integrator of its
+// model.
 #pragma once
 
 #include <string>

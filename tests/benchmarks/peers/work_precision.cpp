@@ -9,7 +9,7 @@
 namespace whirl_twin::comparison {
 namespace {
 
-/// Points that the first look finds this much dearer than the least are not looked at again.
+/// Settings that the first pass finds slower than the minimum by this factor are not timed again.
 constexpr double kDearer = 1.5;
 /// Not the first run beyond the budget ends a ladder: with too loose a tolerance some solvers are
 /// slower than with a tighter one.
@@ -89,7 +89,7 @@ void time(Candidate& candidate, const Effort& effort, std::vector<double>& out) 
   candidate.run->prepare();
   const double start = cpuMilliseconds();
   candidate.prepare_ms.push_back(start - before);
-  candidate.run->integrate(out.data());  // not counted: what was prepared comes into the caches
+  candidate.run->integrate(out.data());  // not counted: warms the caches
   int runs = 0;
   const double warm = cpuMilliseconds();
   double elapsed = 0.0;

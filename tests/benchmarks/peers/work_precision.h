@@ -1,9 +1,9 @@
-// Work against precision: the least CPU time with which a solver meets an error.
+// Work-precision comparison: the minimum CPU time with which a solver meets an error.
 //
-// A level counts as met by a setting only if every finer setting that was tried meets it too: an
-// error that is small by luck does not count. Times are medians over rounds in which all who take
-// part run one after the other, each round beginning with another; so a machine that is busy for a
-// while is busy for all.
+// A level counts as met by a setting only if every finer tested setting meets it too: an error that
+// is small by coincidence does not count. Times are medians over rounds in which all participants
+// run one after the other, each round with a different first one; so other load of the machine
+// affects all alike.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ struct Point {
   double setting = 0.0;
   double error = 0.0;       ///< [-]
   double first_ms = 0.0;    ///< [ms], CPU time when the error was found
-  double cpu_ms = 0.0;      ///< [ms], median; 0: not timed, being no candidate for the least
-  double prepare_ms = 0.0;  ///< [ms], median, of what is computed once before any run
+  double cpu_ms = 0.0;      ///< [ms], median; 0: not timed, no candidate for the minimum
+  double prepare_ms = 0.0;  ///< [ms], median, of the computations before any run
 };
 
 /// The points of a contender, from coarse to fine.
@@ -37,7 +37,7 @@ struct Effort {
 /// A curve for each contender of the scene.
 std::vector<Curve> measure(const ComparedScene& scene, const Effort& effort);
 
-/// The cheapest timed point that meets the level, or nullptr; what it cost to prepare may count.
+/// The fastest timed point that meets the level, or nullptr; optionally including preparation.
 const Point* cheapest(const Curve& curve, double level, bool with_preparation = false);
 
 }  // namespace whirl_twin::comparison
