@@ -20,7 +20,7 @@
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
-#include "mechanics/moment.h"
+#include "mechanics/evaluation_point.h"
 #include "mechanics/reaction.h"
 #include "mechanics/sketch.h"
 
@@ -64,27 +64,27 @@ struct SaddleTrap {
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                              const Moment<S>& at) const {
+                              const EvaluationPoint<S>& at) const {
     const S along_x = v[0] - at.speed * q[1];
     const S along_y = v[1] + at.speed * q[0];
     const S up = (1.0 / radius) * (q[0] * v[0] - q[1] * v[1]);
     return (0.5 * mass) * (along_x * along_x + along_y * along_y + up * up);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>& at) const {
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const EvaluationPoint<S>& at) const {
     const S up = (0.5 * mass * gravity * cos(lean) / radius) * (q[0] * q[0] - q[1] * q[1]);
     const S aside = q[0] * cos(at.angle) - q[1] * sin(at.angle);
     return up + (mass * gravity * sin(lean)) * aside;
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
-                                  const Moment<S>&) const {
+                                  const EvaluationPoint<S>&) const {
     const S up = (1.0 / radius) * (q[0] * v[0] - q[1] * v[1]);
     return (0.5 * damping) * (v[0] * v[0] + v[1] * v[1] + up * up);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
-                                              const std::array<S, kDof>&, const Moment<S>&) const {
+                                              const std::array<S, kDof>&, const EvaluationPoint<S>&) const {
     return {};
   }
 
@@ -92,7 +92,7 @@ struct SaddleTrap {
   std::vector<Reaction> reactions(const std::array<double, kDof>& q,
                                   const std::array<double, kDof>& v,
                                   const std::array<double, kDof>& a,
-                                  const Moment<double>& at) const {
+                                  const EvaluationPoint<double>& at) const {
     const double w = at.speed;
     const double g_up = gravity * cos(lean);
     const double g_aside = gravity * sin(lean);
@@ -110,12 +110,12 @@ struct SaddleTrap {
   std::vector<Condition> conditions(const std::array<double, kDof>& q,
                                     const std::array<double, kDof>& v,
                                     const std::array<double, kDof>& a,
-                                    const Moment<double>& at) const {
+                                    const EvaluationPoint<double>& at) const {
     return {{"contact", "N", reactions(q, v, a, at).front().value, "the ball lifts off the saddle"},
             {"rim", "m", rim - std::hypot(q[0], q[1]), "the ball leaves the saddle"}};
   }
 
-  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>& at) const {
+  Sketch sketch(const std::array<double, kDof>& q, const EvaluationPoint<double>& at) const {
     constexpr double kPi = 3.14159265358979324;
     const double ball = 0.1 * rim;
     const double foot = -1.2 * rim;
