@@ -30,8 +30,9 @@ struct MeasuredRun {
 /// its place: rows of two runs, fewer than five rows.
 MeasuredRun measuredRun(std::vector<double> time, std::vector<MeasuredColumn> columns);
 
-/// Likewise from the columns of a CSV file with a header line. Throws InputError, also for errors
-/// of csvColumns().
+/// Likewise from the columns of a CSV file with a header line. If the file ends within a line, its
+/// last row is omitted, with a remark: its last number may be cut. Throws InputError, also for
+/// errors of csvColumns().
 MeasuredRun readMeasuredRun(const std::string& path, const std::string& time,
                             const std::vector<std::string>& columns);
 

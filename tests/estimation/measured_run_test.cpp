@@ -65,6 +65,12 @@ TEST(MeasuredRun, LeavesRepeatedInstantsOut) {
   EXPECT_THAT(run.remarks.front(), HasSubstr("row 2"));
 }
 
+TEST(MeasuredRun, LeavesOutARowThatIsCut) {  // 9 may be the beginning of 9.75
+  const MeasuredRun run = read("t,a\n0,1\n1,2.5\n2,4\n3,5\n4,7\n5,8.25\n6,9");
+  EXPECT_EQ(run.time.back(), 5.0);
+  EXPECT_THAT(run.remarks.back(), HasSubstr("ends within a line"));
+}
+
 TEST(MeasuredRun, NamesAGap) {
   const MeasuredRun run = read("t,a\n0,1\n1,2\n2,3\n3,4\n40,5.5\n41,6\n");
   ASSERT_EQ(run.remarks.size(), 2u);  // the column is coarse, too
