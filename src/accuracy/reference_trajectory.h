@@ -1,4 +1,4 @@
-// Reference trajectory for error measurement, with a bound of its own error.
+// Reference trajectory for error measurement, with a bound of the error of the reference itself.
 //
 // It is computed twice, by two unrelated methods and at two steps of which neither is a multiple of
 // the other, both finer than the scene's: twice their difference bounds the error of the better

@@ -310,11 +310,12 @@ Stability stability(const Linearization& linearization) {
   return stability(linearization, 0);
 }
 
-Stability stability(const Linearization& linearization, std::size_t zeros, std::size_t modes_told) {
+Stability stability(const Linearization& linearization, std::size_t zeros,
+                    std::size_t reported_modes) {
   Stability s;
   if (linearization.mass.rows() > kMaxCompleteCoordinates && zeros == 0 &&
-      modes_told < static_cast<std::size_t>(linearization.mass.rows())) {
-    if (const auto lowest = lowestEigenvalues(banded(linearization), modes_told)) {
+      reported_modes < static_cast<std::size_t>(linearization.mass.rows())) {
+    if (const auto lowest = lowestEigenvalues(banded(linearization), reported_modes)) {
       judgeLowest(*lowest, s);
       modes(s.eigenvalues, s);
       setMargins(s);

@@ -12,8 +12,9 @@ Actuator::Actuator(const ActuatorSettings& settings, double period)
       most_(settings.slew > 0.0 ? settings.slew * period : kInfinity),
       resolution_(settings.resolution) {}
 
-bool Actuator::take(double told) noexcept {
-  const double wanted = resolution_ > 0.0 ? resolution_ * std::nearbyint(told / resolution_) : told;
+bool Actuator::take(double command) noexcept {
+  const double wanted =
+      resolution_ > 0.0 ? resolution_ * std::nearbyint(command / resolution_) : command;
   const double within = std::clamp(wanted, -limit_, limit_);
   const double change = within - value_;
   value_ += std::copysign(most_, change);

@@ -24,7 +24,7 @@ class Actuator {
 
   void reset() noexcept { value_ = 0.0; }
   /// Sets the command, a finite value: false where the actuator cannot reach it.
-  bool take(double told) noexcept;
+  bool take(double command) noexcept;
   /// The held value, before the lag.
   double value() const noexcept { return value_; }
 

@@ -15,20 +15,20 @@ constexpr std::size_t kCapacity = 1024;  // maximum number of waiting samples, o
 }  // namespace
 
 ExternalLink::ExternalLink(std::size_t measured, std::size_t outputs)
-    : told_(kValues + measured, kCapacity),
-      heard_(kValues + outputs, kCapacity),
-      telling_(told_.recordSize()),
-      hearing_(heard_.recordSize()),
-      taking_(told_.recordSize()),
-      answering_(heard_.recordSize()) {}
+    : sent_(kValues + measured, kCapacity),
+      received_(kValues + outputs, kCapacity),
+      sending_(sent_.recordSize()),
+      hearing_(received_.recordSize()),
+      receiving_(sent_.recordSize()),
+      answering_(received_.recordSize()) {}
 
 void ExternalLink::tell(std::int64_t run, std::int64_t sample, double time,
                         const double* values) noexcept {
-  telling_[kRun] = static_cast<double>(run);
-  telling_[kSample] = static_cast<double>(sample);
-  telling_[kTime] = time;
-  std::copy_n(values, measured(), telling_.begin() + kValues);
-  told_.push(telling_.data());
+  sending_[kRun] = static_cast<double>(run);
+  sending_[kSample] = static_cast<double>(sample);
+  sending_[kTime] = time;
+  std::copy_n(values, measured(), sending_.begin() + kValues);
+  sent_.push(sending_.data());
 }
 
 bool ExternalLink::pop(RecordRing& ring, std::vector<double>& record,
@@ -44,12 +44,12 @@ bool ExternalLink::pop(RecordRing& ring, std::vector<double>& record,
 }
 
 bool ExternalLink::hear(ExternalSample& command) noexcept {
-  return pop(heard_, hearing_, command);
+  return pop(received_, hearing_, command);
 }
 
 bool ExternalLink::take(ExternalSample& sample) {
   sample.values.resize(measured());
-  return pop(told_, taking_, sample);
+  return pop(sent_, receiving_, sample);
 }
 
 bool ExternalLink::answer(const ExternalSample& command) {
@@ -62,7 +62,7 @@ bool ExternalLink::answer(const ExternalSample& command) {
   answering_[kSample] = static_cast<double>(command.sample);
   answering_[kTime] = command.time;
   std::copy(command.values.begin(), command.values.end(), answering_.begin() + kValues);
-  return heard_.push(answering_.data());
+  return received_.push(answering_.data());
 }
 
 ExternalController::ExternalController(const Rules& rules, std::size_t measured,
@@ -83,7 +83,7 @@ void ExternalController::keep(std::size_t samples) {
 /// The other process is not reset: in lockstep already the first sample waits for it.
 void ExternalController::reset() noexcept {
   ++run_;
-  told_ = heard_ = kNone;
+  sent_ = received_ = kNone;
   ages_.reset();
   std::fill(newest_.begin(), newest_.end(), 0.0);
   std::fill(answered_.begin(), answered_.end(), kNone);
@@ -92,46 +92,46 @@ void ExternalController::reset() noexcept {
 }
 
 void ExternalController::exchange(StateImage& image) noexcept {
-  image(newest_, answers_, answered_, run_, told_, heard_at_);
+  image(newest_, answers_, answered_, run_, sent_, heard_at_);
   if (image.puts()) {
     ++run_;
-    heard_ = awaited_from_ = kNone;
+    received_ = awaited_from_ = kNone;
     connected_ = lost_ = waiting_ = false;
   }
 }
 
 /// False for a command that answers no sample of this run.
 bool ExternalController::take(const ExternalSample& command) noexcept {
-  if ((command.run != 0 && command.run != run_) || command.sample > told_) {
+  if ((command.run != 0 && command.run != run_) || command.sample > sent_) {
     return false;
   }
-  heard_ = std::max(heard_, command.sample);
+  received_ = std::max(received_, command.sample);
   connected_ = true;
   lost_ = false;
   return true;
 }
 
 void ExternalController::update(const ControlSample& sample, double* outputs) noexcept {
-  told_ = sample.index;
+  sent_ = sample.index;
   link_->tell(run_, sample.index, static_cast<double>(sample.time) / 1e9, sample.values);
   if (!rules_.lockstep) {
     giveNewest(sample.time, outputs);
   }
-  if (heard_ != kNone) {
+  if (received_ != kNone) {
     ages_.add(age());
   }
 }
 
 void ExternalController::giveNewest(std::int64_t time, double* outputs) noexcept {
   while (link_->hear(command_)) {
-    const std::int64_t before = heard_;
+    const std::int64_t before = received_;
     if (take(command_) && command_.sample >= before) {
       std::copy(command_.values.begin(), command_.values.end(), newest_.begin());
       heard_at_ = time;
     }
   }
   // No time-out before the first connection.
-  if (connected_ && heard_ == kNone && time < heard_at_) {
+  if (connected_ && received_ == kNone && time < heard_at_) {
     heard_at_ = time;  // after a reset
   }
   if (connected_ && time - heard_at_ >= rules_.timeout) {

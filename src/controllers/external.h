@@ -34,8 +34,8 @@ class ExternalLink {
  public:
   ExternalLink(std::size_t measured, std::size_t outputs);
 
-  std::size_t measured() const { return told_.recordSize() - kValues; }
-  std::size_t outputs() const { return heard_.recordSize() - kValues; }
+  std::size_t measured() const { return sent_.recordSize() - kValues; }
+  std::size_t outputs() const { return received_.recordSize() - kValues; }
 
   // The loop; real-time safe. `values` of the sample in and out is never resized.
 
@@ -55,9 +55,9 @@ class ExternalLink {
   enum { kRun, kSample, kTime, kValues };
   static bool pop(RecordRing& ring, std::vector<double>& record, ExternalSample& out) noexcept;
 
-  RecordRing told_, heard_;
-  std::vector<double> telling_, hearing_;   // the loop's
-  std::vector<double> taking_, answering_;  // the other thread's
+  RecordRing sent_, received_;
+  std::vector<double> sending_, hearing_;      // the loop's
+  std::vector<double> receiving_, answering_;  // the other thread's
 };
 
 class ExternalController final : public Controller {
@@ -92,7 +92,7 @@ class ExternalController final : public Controller {
   bool givesNothing() const noexcept { return lost_ && rules_.on_timeout == OnTimeout::kZero; }
   bool stops() const noexcept { return lost_ && rules_.on_timeout == OnTimeout::kStop; }
   /// [samples], of the newest command relative to the newest sample; kNoAge: none received.
-  std::int64_t age() const noexcept { return heard_ == kNone ? kNoAge : told_ - heard_; }
+  std::int64_t age() const noexcept { return received_ == kNone ? kNoAge : sent_ - received_; }
 
   /// age() [samples] at each sample since the start, from the first command on. Any thread.
   const TimingHistogram& ages() const noexcept { return ages_; }
@@ -131,8 +131,8 @@ class ExternalController final : public Controller {
   std::vector<double> answers_;  // lockstep
   std::vector<std::int64_t> answered_;
   std::int64_t run_ = 0;
-  std::int64_t told_ = 0;              // newest sample
-  std::int64_t heard_ = kNone;         // newest sample that was answered in this run
+  std::int64_t sent_ = 0;              // newest sample
+  std::int64_t received_ = kNone;      // newest sample that was answered in this run
   std::int64_t awaited_from_ = kNone;  // lockstep: the first awaited sample; kNone: none at present
   bool connected_ = false;             // a command was received since the loss, or the start
   bool lost_ = false;

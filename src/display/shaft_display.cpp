@@ -92,10 +92,10 @@ void ShaftDisplay::update(const std::string& published, const WhirlState& state)
     return;
   }
   place->state = state;
-  place->told = true;
+  place->published = true;
   scale_.observe(std::hypot(state.x, state.y), state.time);
   if (std::any_of(places_.begin(), places_.end(),
-                  [&](const Place& p) { return !p.told || p.state.step != state.step; })) {
+                  [&](const Place& p) { return !p.published || p.state.step != state.step; })) {
     return;
   }
   shown_ = places_.front().state;

@@ -52,7 +52,7 @@ class ShaftDisplay : public SystemDisplay {
     Station station;
     WhirlState state;
     OrbitTrail trail;
-    bool told = false;
+    bool published = false;
   };
 
   /// In the picture [m], of a station at `position` [m] of the shaft with the whirl x, y [m].

@@ -64,17 +64,18 @@ ShaftEstimate EstimatorShaft::at(std::int64_t instant, std::int64_t to_twin) {
     shaft.deviation = 0.0;
     return shaft;
   }
-  const ShaftEstimate told = tracker_->at(instant);
-  if (told.known) {
+  const ShaftEstimate estimate = tracker_->at(instant);
+  if (estimate.known) {
     if (!is_known_) {
-      untold_ = shaft.angle.turns - told.angle.turns +
-                std::llround((shaft.angle.remainder - told.angle.remainder) / ShaftAngle::kTurn);
+      extra_turns_ =
+          shaft.angle.turns - estimate.angle.turns +
+          std::llround((shaft.angle.remainder - estimate.angle.remainder) / ShaftAngle::kTurn);
     }
-    shaft = told;
-    shaft.angle.turns += untold_;
+    shaft = estimate;
+    shaft.angle.turns += extra_turns_;
     known_ = {instant, shaft.angle, shaft.speed};
   }
-  is_known_ = told.known;
+  is_known_ = estimate.known;
   return shaft;
 }
 

@@ -64,7 +64,7 @@ class EstimatorShaft {
   std::optional<ShaftTracker> tracker_;
   std::optional<ShaftInstant> known_;  // last
   bool is_known_ = false;
-  std::int64_t untold_ = 0;  // whole turns added to those of the keyphasor tracker
+  std::int64_t extra_turns_ = 0;  // whole turns added to those of the keyphasor tracker
 };
 
 }  // namespace whirl_twin

@@ -54,29 +54,29 @@ EstimatorTrack::EstimatorTrack(const Twin& twin, std::size_t system,
       robust(filter.learnedCovariance().diagonal().cwiseSqrt(), filter.learnedWalk()),
       innovations(filter.channels().size(), kNaN),
       surest(innovations) {
-  told.system = twin.systems()[system]->spec.name;
+  report.system = twin.systems()[system]->spec.name;
   for (const EstimatorParameter& p : filter.model().parameters()) {
-    told.parameter.push_back(p.path);
-    told.parameter_unit.push_back(parameterUnit(*twin.systems()[system]->model, p.path));
+    report.parameter.push_back(p.path);
+    report.parameter_unit.push_back(parameterUnit(*twin.systems()[system]->model, p.path));
   }
   for (const EstimatorChannel& c : filter.channels()) {
-    told.channel.push_back(c.name);
-    told.channel_unit.push_back(c.signal.unit);
+    report.channel.push_back(c.name);
+    report.channel_unit.push_back(c.signal.unit);
   }
   const std::size_t n = filter.channels().size();
-  told.residual.assign(n, state::FollowState::kNone);
-  told.residual_deviation = told.offset = told.residual;
-  told.channel_status.assign(n, static_cast<std::uint8_t>(state::ChannelStatus::kSilent));
+  report.residual.assign(n, state::FollowState::kNone);
+  report.residual_deviation = report.offset = report.residual;
+  report.channel_status.assign(n, static_cast<std::uint8_t>(state::ChannelStatus::kSilent));
   squares.assign(n, 0.0);
   counts.assign(n, 0);
   heard.assign(n, 0);
   model = filter.model().system();
   forces = bearingForces(*model);
   for (const BearingForce& force : forces) {
-    told.bearing.push_back(force.name);
+    report.bearing.push_back(force.name);
   }
-  told.force_x.assign(forces.size(), state::FollowState::kNone);
-  told.force_y = told.force_deviation = told.force_x;
+  report.force_x.assign(forces.size(), state::FollowState::kNone);
+  report.force_y = report.force_deviation = report.force_x;
 }
 
 bool EstimatorTrack::settled(std::int64_t instant) const {
@@ -86,14 +86,14 @@ bool EstimatorTrack::settled(std::int64_t instant) const {
 void EstimatorTrack::beginMotion(std::int64_t instant, bool again_now) {
   again = again_now;
   began = last_used = instant;
-  used_before = told.used;
-  refused_before = told.refused;
+  used_before = report.used;
+  refused_before = report.refused;
   residuals.restart();
 }
 
 bool EstimatorTrack::beganWrong(std::int64_t instant) const {
-  const auto refused = static_cast<double>(told.refused - refused_before);
-  const auto used = static_cast<double>(told.used - used_before);
+  const auto refused = static_cast<double>(report.refused - refused_before);
+  const auto used = static_cast<double>(report.used - used_before);
   return !again && instant - began > kMotionFound && instant - began < kResidualSettling &&
          refused > kMaxRefusedAtFirst * (refused + used);
 }
@@ -129,39 +129,39 @@ void EstimatorTrack::forgetFactors() {
 }
 
 void EstimatorTrack::publishKnown(double time) {
-  told.value.clear();
-  told.deviation.clear();
-  for (std::size_t i = 0; i < told.parameter.size(); ++i) {
-    told.value.push_back(filter.parameter(i));
-    told.deviation.push_back(filter.parameterDeviation(i) *
-                             robust.factors()[static_cast<Eigen::Index>(i)]);
+  report.value.clear();
+  report.deviation.clear();
+  for (std::size_t i = 0; i < report.parameter.size(); ++i) {
+    report.value.push_back(filter.parameter(i));
+    report.deviation.push_back(filter.parameterDeviation(i) *
+                               robust.factors()[static_cast<Eigen::Index>(i)]);
   }
-  for (std::size_t c = 0; c < told.channel.size(); ++c) {
-    told.offset[c] = filter.hasOffset(c) ? filter.offset(c) : state::FollowState::kNone;
+  for (std::size_t c = 0; c < report.channel.size(); ++c) {
+    report.offset[c] = filter.hasOffset(c) ? filter.offset(c) : state::FollowState::kNone;
   }
   for (std::size_t i = 0; i < forces.size() && runs; ++i) {
     const KalmanFilter::Expected x = filter.combined(forces[i].x);
     const KalmanFilter::Expected y = filter.combined(forces[i].y);
-    told.force_x[i] = x.value;
-    told.force_y[i] = y.value;
-    told.force_deviation[i] = std::max(x.deviation, y.deviation);
+    report.force_x[i] = x.value;
+    report.force_y[i] = y.value;
+    report.force_deviation[i] = std::max(x.deviation, y.deviation);
   }
   const InnovationTest::Verdict& verdict = residuals.verdict();
-  told.mismatch = verdict.mismatch;
-  told.mismatch_least = verdict.mismatch_least;
-  told.mismatch_limit = verdict.mismatch_limit;
-  told.whiteness = verdict.whiteness;
-  told.whiteness_limit = verdict.whiteness_limit;
-  if (!told.parameter.empty() && runs) {
-    drift.take(time, told.value.data(), told.deviation.data());
+  report.mismatch = verdict.mismatch;
+  report.mismatch_least = verdict.mismatch_least;
+  report.mismatch_limit = verdict.mismatch_limit;
+  report.whiteness = verdict.whiteness;
+  report.whiteness_limit = verdict.whiteness_limit;
+  if (!report.parameter.empty() && runs) {
+    drift.take(time, report.value.data(), report.deviation.data());
     const CusumDetector::Drift& gone = drift.drift();
-    told.drift_parameter =
-        gone.parameter < 0 ? "" : told.parameter[static_cast<std::size_t>(gone.parameter)];
-    told.drift_from = gone.from;
-    told.drift_to = gone.to;
-    told.drift_since = gone.since;
-    told.drift = gone.statistic;
-    told.drift_limit = gone.limit;
+    report.drift_parameter =
+        gone.parameter < 0 ? "" : report.parameter[static_cast<std::size_t>(gone.parameter)];
+    report.drift_from = gone.from;
+    report.drift_to = gone.to;
+    report.drift_since = gone.since;
+    report.drift = gone.statistic;
+    report.drift_limit = gone.limit;
   }
 }
 

@@ -55,7 +55,7 @@ struct EstimatorTrack {
   std::vector<std::int64_t> counts;
   std::vector<std::int64_t> heard;  // [ns], newest sample of each channel
   std::int64_t overtaken = 0;       // samples preceded by newer ones of channels with less delay
-  state::FollowState told;
+  state::FollowState report;
   std::int64_t next_telling = 0;     // [ns]
   SharedSystem model;                // of the current generation
   std::vector<BearingForce> forces;  // of that model

@@ -42,10 +42,11 @@ double NormalEquations::variance() const {
   return free > 0 ? squares / static_cast<double>(free) : kNaN;
 }
 
-bool Information::told(Eigen::Index unknown) const {
-  return std::none_of(untold.begin(), untold.end(), [&](const UnidentifiableDirection& direction) {
-    return direction.takes_part[static_cast<std::size_t>(unknown)];
-  });
+bool Information::isIdentifiable(Eigen::Index unknown) const {
+  return std::none_of(unidentifiable.begin(), unidentifiable.end(),
+                      [&](const UnidentifiableDirection& direction) {
+                        return direction.takes_part[static_cast<std::size_t>(unknown)];
+                      });
 }
 
 Information information(const NormalEquations& normal, const Eigen::VectorXd& theta,
@@ -75,7 +76,7 @@ Information information(const NormalEquations& normal, const Eigen::VectorXd& th
     Eigen::Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);
     if (strength <= nothing || deviation > 1.0) {
-      result.untold.push_back({direction / direction[largest], deviation, {}});
+      result.unidentifiable.push_back({direction / direction[largest], deviation, {}});
     } else {
       addKnown(direction);
     }
@@ -85,7 +86,7 @@ Information information(const NormalEquations& normal, const Eigen::VectorXd& th
       known.cols() == 0 ? Eigen::MatrixXd::Zero(n, n)
                         : Eigen::MatrixXd(variance * known *
                                           Ldlt(inner).solve(Eigen::MatrixXd(known.transpose())));
-  for (UnidentifiableDirection& direction : result.untold) {
+  for (UnidentifiableDirection& direction : result.unidentifiable) {
     for (Eigen::Index i = 0; i < n; ++i) {
       const double part = std::fabs(direction.parts[i]);
       const bool of_value =
@@ -95,11 +96,11 @@ Information information(const NormalEquations& normal, const Eigen::VectorXd& th
     }
   }
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (result.told(i)) {
+    if (result.isIdentifiable(i)) {
       result.deviation[i] = sizes[i] * std::sqrt(covariance(i, i));
     }
     for (Eigen::Index j = 0; j < n; ++j) {
-      if (result.told(i) && result.told(j)) {
+      if (result.isIdentifiable(i) && result.isIdentifiable(j)) {
         result.correlation(i, j) =
             covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
       }

@@ -35,9 +35,9 @@ struct UnidentifiableDirection {
 struct Information {
   Eigen::VectorXd deviation;    ///< standard deviations; NaN: not identifiable
   Eigen::MatrixXd correlation;  ///< of identifiable unknowns; NaN elsewhere
-  std::vector<UnidentifiableDirection> untold;
+  std::vector<UnidentifiableDirection> unidentifiable;
 
-  bool told(Eigen::Index unknown) const;
+  bool isIdentifiable(Eigen::Index unknown) const;
 };
 
 /// An unknown is identifiable if its standard deviation is below its size (> 0), with only one

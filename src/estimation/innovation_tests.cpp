@@ -166,11 +166,11 @@ void CusumDetector::learn(Watch& watch) const {
   watch.reference = w.first + mean;
   watch.deviation = std::sqrt(w.variances / n);
   const double r = watch.correlation;
-  const double told = 0.5 * watch.deviation * watch.deviation * (1.0 - r * r);
+  const double independent = 0.5 * watch.deviation * watch.deviation * (1.0 - r * r);
   // Variance of the innovations with r above the sample correlation: not less than with the latter.
   const double is_new = std::max(0.0, variance * (1.0 - 2.0 * r * seen + r * r));
   const double upper_end = 1.0 + kUpperEnd / std::sqrt(2.0 * n);
-  watch.scatter = std::fmax(1.0, upper_end * std::sqrt(is_new / told));
+  watch.scatter = std::fmax(1.0, upper_end * std::sqrt(is_new / independent));
   // Bias correction: the scatter about the sample mean is too small by the variance of the mean.
   const double as_seen = std::clamp(unbiased, 0.0, kMaxCorrelated);
   const double of_mean = (1.0 + as_seen) / ((1.0 - as_seen) * n);

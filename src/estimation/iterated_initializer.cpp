@@ -16,7 +16,7 @@ constexpr double kNearEnough = 0.0025;
 /// Stored calls before the first pass: a second of two encoders at 1 kHz.
 constexpr std::size_t kFirstLook = 3000;
 /// Stored calls at most: 24 s of two encoders at 500 Hz, 3 MB.
-constexpr std::size_t kMaxTold = 36'000;
+constexpr std::size_t kMaxStored = 36'000;
 /// The initialization ends before the drift detector has learned its references
 /// (estimator_track.cpp), which a step of the estimate would falsify.
 constexpr std::int64_t kMaxStart = 100'000'000'000;  // ns
@@ -158,7 +158,7 @@ void IteratedInitializer::endLook() {
   }
   look_.reset();
   next_look_ = same || !found ? 2 * stored_.size() : stored_.size();
-  if ((same && found && parameterVariance() < kNearEnough) || stored_.size() >= kMaxTold ||
+  if ((same && found && parameterVariance() < kNearEnough) || stored_.size() >= kMaxStored ||
       std::llabs(shaft().time - start_) > kMaxStart) {
     endStart();
   }

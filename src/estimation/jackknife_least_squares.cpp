@@ -27,12 +27,12 @@ struct JackknifeLeastSquares::Directions {
   Eigen::MatrixXd plain;    // in units of what each unknown alone explains
   Eigen::MatrixXd columns;  // in the unknowns' own units
   Eigen::VectorXd size;
-  std::vector<bool> told;
+  std::vector<bool> identifiable;
 
   Eigen::VectorXd solved(const Eigen::VectorXd& right) const {
     Eigen::VectorXd x = Eigen::VectorXd::Zero(right.size());
     for (Eigen::Index i = 0; i < size.size(); ++i) {
-      if (told[static_cast<std::size_t>(i)]) {
+      if (identifiable[static_cast<std::size_t>(i)]) {
         x += columns.col(i) * (columns.col(i).dot(right) / size[i]);
       }
     }
@@ -53,7 +53,7 @@ JackknifeLeastSquares::Directions JackknifeLeastSquares::directionsOf(
   all.columns = unit.asDiagonal() * all.plain;
   all.size = eigen.values;
   for (const double size : all.size) {
-    all.told.push_back(size > kMinEigenvalue);
+    all.identifiable.push_back(size > kMinEigenvalue);
   }
   return all;
 }
@@ -114,7 +114,7 @@ Eigen::MatrixXd JackknifeLeastSquares::withoutParts(const Directions& directions
     Eigen::VectorXd score = directions.columns.transpose() * (group.right - group.normal * x);
     left.diagonal() += directions.size;
     for (Eigen::Index i = 0; i < unknowns_; ++i) {
-      if (!directions.told[static_cast<std::size_t>(i)]) {
+      if (!directions.identifiable[static_cast<std::size_t>(i)]) {
         left.row(i).setZero();
         left.col(i).setZero();
         left(i, i) = 1.0;
@@ -154,7 +154,7 @@ JackknifeSolution JackknifeLeastSquares::solve() const {
   const Eigen::MatrixXd changes = withoutParts(directions, first);
   Eigen::ArrayXd white = Eigen::ArrayXd::Zero(unknowns_);
   for (Eigen::Index i = 0; i < unknowns_; ++i) {
-    if (directions.told[static_cast<std::size_t>(i)]) {
+    if (directions.identifiable[static_cast<std::size_t>(i)]) {
       white += solution.variance * directions.columns.col(i).array().square() / directions.size[i];
     }
   }
@@ -164,26 +164,27 @@ JackknifeSolution JackknifeLeastSquares::solve() const {
   // In units of what each explains alone, an unknown or a direction with a standard deviation above
   // this fraction of all that is explained is not identifiable.
   const double most = kMaxUncertain * std::sqrt(solution.explained);
-  std::vector<Eigen::Index> untold;
+  std::vector<Eigen::Index> unidentifiable;
   for (Eigen::Index k = 0; k < unknowns_; ++k) {
-    solution.told.push_back(solution.deviation[k] * std::sqrt(all.normal(k, k)) <= most);
+    solution.identifiable.push_back(solution.deviation[k] * std::sqrt(all.normal(k, k)) <= most);
   }
   for (Eigen::Index i = 0; i < unknowns_; ++i) {
-    const bool rounding = !directions.told[static_cast<std::size_t>(i)];
+    const bool rounding = !directions.identifiable[static_cast<std::size_t>(i)];
     const double variance =
         std::max(changes.row(i).squaredNorm(), solution.variance / directions.size[i]);
     if (rounding || variance > most * most) {
-      untold.push_back(i);
+      unidentifiable.push_back(i);
     }
     for (Eigen::Index k = 0; k < unknowns_ && rounding; ++k) {
       if (std::fabs(directions.plain(k, i)) > kRoundingParticipation) {
-        solution.told[static_cast<std::size_t>(k)] = false;
+        solution.identifiable[static_cast<std::size_t>(k)] = false;
       }
     }
   }
-  solution.untold.resize(unknowns_, static_cast<Eigen::Index>(untold.size()));
-  for (std::size_t i = 0; i < untold.size(); ++i) {
-    solution.untold.col(static_cast<Eigen::Index>(i)) = directions.columns.col(untold[i]);
+  solution.unidentifiable.resize(unknowns_, static_cast<Eigen::Index>(unidentifiable.size()));
+  for (std::size_t i = 0; i < unidentifiable.size(); ++i) {
+    solution.unidentifiable.col(static_cast<Eigen::Index>(i)) =
+        directions.columns.col(unidentifiable[i]);
   }
   return solution;
 }

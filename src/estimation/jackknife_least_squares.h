@@ -15,12 +15,12 @@
 namespace whirl_twin {
 
 struct JackknifeSolution {
-  Eigen::VectorXd x;          ///< 0 in the directions at the level of rounding
-  Eigen::VectorXd deviation;  ///< standard deviations
-  std::vector<bool> told;     ///< whether each unknown is identifiable
-  Eigen::MatrixXd untold;     ///< unidentifiable directions, one per column
-  double variance = 0.0;      ///< of the residuals
-  double explained = 0.0;     ///< sum of squares explained by the unknowns but the last `constants`
+  Eigen::VectorXd x;               ///< 0 in the directions at the level of rounding
+  Eigen::VectorXd deviation;       ///< standard deviations
+  std::vector<bool> identifiable;  ///< whether each unknown is identifiable
+  Eigen::MatrixXd unidentifiable;  ///< unidentifiable directions, one per column
+  double variance = 0.0;           ///< of the residuals
+  double explained = 0.0;  ///< sum of squares explained by the unknowns but the last `constants`
   std::int64_t values = 0;
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -210,32 +209,12 @@ const std::vector<double>& MeasuredRun::column(const std::string& name) const {
   return found->values;
 }
 
-namespace {
-
-/// Does the file end within a line? Its last row is then incomplete, or its last number.
-bool endsWithinALine(const std::string& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file || file.tellg() <= std::streamoff(0)) {
-    return false;
-  }
-  file.seekg(-1, std::ios::end);
-  const int last = file.get();
-  return last != '\n' && last != '\r';
-}
-
-}  // namespace
-
 MeasuredRun readMeasuredRun(const std::string& path, const std::string& time,
                             const std::vector<std::string>& columns) {
   std::vector<std::string> names = {time};
   names.insert(names.end(), columns.begin(), columns.end());
-  std::vector<std::vector<double>> read = csvColumns(path, names);
-  const bool cut = endsWithinALine(path) && read.front().size() > kMinRows;
-  if (cut) {
-    for (std::vector<double>& values : read) {
-      values.pop_back();
-    }
-  }
+  bool cut = false;
+  std::vector<std::vector<double>> read = csvColumns(path, names, &cut);
   std::vector<MeasuredColumn> named;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     named.push_back({columns[i], std::move(read[i + 1])});

@@ -52,10 +52,10 @@ void requireArrival(const FitStudy& study, const ShootingStage& stage,
 /// Rows of a HeldCost that keep the unknowns at their start values in unidentifiable directions.
 Eigen::MatrixXd heldDirections(const Information& information, const Eigen::VectorXd& sizes,
                                const ShootingSolver& solver, double deviation) {
-  const auto count = static_cast<Eigen::Index>(information.untold.size());
+  const auto count = static_cast<Eigen::Index>(information.unidentifiable.size());
   Eigen::MatrixXd directions(sizes.size(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::VectorXd& parts = information.untold[static_cast<std::size_t>(k)].parts;
+    const Eigen::VectorXd& parts = information.unidentifiable[static_cast<std::size_t>(k)].parts;
     for (Eigen::Index i = 0; i < sizes.size(); ++i) {
       directions(i, k) = parts[i] * sizes[i] * solver.distance().slope(i, solver.theta()[i]);
     }
@@ -94,11 +94,11 @@ Information settle(ShootingSolver& solver, ShootingStage& stage) {
     sizes = now;
     Information there =
         information(solver.normalEquations(stage), solver.theta(), sizes, left.rows_alike);
-    const bool held = there.untold.size() <= result.untold.size();
-    if (there.untold.size() >= result.untold.size()) {
+    const bool held = there.unidentifiable.size() <= result.unidentifiable.size();
+    if (there.unidentifiable.size() >= result.unidentifiable.size()) {
       result = std::move(there);  // of the current fixed directions
     }
-    if (result.untold.empty() || (same && held)) {
+    if (result.unidentifiable.empty() || (same && held)) {
       break;
     }
   }

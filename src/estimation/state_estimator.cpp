@@ -123,13 +123,13 @@ void StateEstimator::takeSample(const MeasuredSample& sample) {
   const Channel& channel = channels_[sample.source][sample.channel];
   EstimatorTrack& system = *systems_[channel.system];
   const std::int64_t instant = sample.time - channel.delay;
-  state::FollowState& told = system.told;
+  state::FollowState& report = system.report;
   const auto set_status = [&](state::ChannelStatus status) {
-    told.channel_status[channel.place] = static_cast<std::uint8_t>(status);
+    report.channel_status[channel.place] = static_cast<std::uint8_t>(status);
   };
   system.heard[channel.place] = sample.time;
   if (!sample.valid) {
-    ++told.invalid;
+    ++report.invalid;
     set_status(state::ChannelStatus::kInvalid);
     return;
   }
@@ -140,8 +140,8 @@ void StateEstimator::takeSample(const MeasuredSample& sample) {
   }
   const bool has_shaft = twin_.systems()[channel.system]->dynamics->hasShaft();
   const ShaftEstimate shaft = shaftOf(system, instant);
-  told.shaft_known = has_shaft && shaft.known;
-  told.shaft_angle_deviation =
+  report.shaft_known = has_shaft && shaft.known;
+  report.shaft_angle_deviation =
       has_shaft && shaft.known ? shaft.deviation : state::FollowState::kNone;
   if (!shaft.known && !system.runs && instant - first_ < kShaftWait) {
     return;
@@ -178,10 +178,10 @@ void StateEstimator::takeSample(const MeasuredSample& sample) {
     ++restarts_;
     return;
   }
-  told.residual[channel.place] = innovation.value;
-  told.residual_deviation[channel.place] = innovation.deviation;
+  report.residual[channel.place] = innovation.value;
+  report.residual_deviation[channel.place] = innovation.deviation;
   if (innovation.used) {
-    ++told.used;
+    ++report.used;
     set_status(state::ChannelStatus::kUsed);
     if (!system.filter.byProbes()) {  // else they are of a different model
       system.innovations[channel.place] = innovation.normalized();
@@ -194,7 +194,7 @@ void StateEstimator::takeSample(const MeasuredSample& sample) {
     }
     return;
   }
-  ++told.refused;
+  ++report.refused;
   set_status(state::ChannelStatus::kRefused);
   if (instant - system.last_used > kLost) {
     // No measurement is consistent with the motion any more: restart the motion.
@@ -312,31 +312,31 @@ void StateEstimator::writeRecord(std::int64_t step) {
 }
 
 void StateEstimator::tellState(EstimatorTrack& system) {
-  state::FollowState& told = system.told;
+  state::FollowState& report = system.report;
   const std::int64_t step = RecordLayout::step(record_.data());
   const double time = twin_.seconds(step);
   const std::int64_t instant = machineInstant(step);
-  told.at = {step, time, 0};
-  told.late = system.overtaken;
-  told.lost = told.repeated = 0;
+  report.at = {step, time, 0};
+  report.late = system.overtaken;
+  report.lost = report.repeated = 0;
   for (std::size_t s = 0; s < channels_.size(); ++s) {
     for (std::size_t c = 0; c < channels_[s].size(); ++c) {
       const Channel& channel = channels_[s][c];
       if (pulses_[s] || channel.system != system.index) {
         continue;
       }
-      told.late += queue_.counts(s).late;
-      told.lost += queue_.counts(s).lost;
-      told.repeated += queue_.counts(s).repeated;
+      report.late += queue_.counts(s).late;
+      report.lost += queue_.counts(s).lost;
+      report.repeated += queue_.counts(s).repeated;
       if (instant - system.heard[channel.place] > kLost) {
-        told.channel_status[channel.place] =
+        report.channel_status[channel.place] =
             static_cast<std::uint8_t>(state::ChannelStatus::kSilent);
       }
     }
   }
   system.publishKnown(time);
   if (listener_.follow) {
-    listener_.follow(told);
+    listener_.follow(report);
   }
 }
 

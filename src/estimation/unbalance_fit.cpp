@@ -268,49 +268,50 @@ void UnbalanceFit::add(std::size_t probe, double value, const Eigen::MatrixXcd& 
   equations_.add(places, row, rest);
 }
 
-UnbalanceEstimate UnbalanceFit::told() const {
+UnbalanceEstimate UnbalanceFit::estimate() const {
   const JackknifeSolution solution = equations_.solve();
   const auto phasor = [&](Eigen::Index place) {
     const auto k = static_cast<std::size_t>(place);
     PhasorEstimate estimate;
     estimate.value = {solution.x[place], solution.x[place + 1]};
     estimate.deviation = std::max(solution.deviation[place], solution.deviation[place + 1]);
-    estimate.told = solution.told[k] && solution.told[k + 1];
+    estimate.identifiable = solution.identifiable[k] && solution.identifiable[k + 1];
     return estimate;
   };
-  UnbalanceEstimate told;
+  UnbalanceEstimate result;
   for (std::size_t j = 0; j < planes_.size(); ++j) {
-    told.planes.push_back(phasor(2 * static_cast<Eigen::Index>(j)));
+    result.planes.push_back(phasor(2 * static_cast<Eigen::Index>(j)));
   }
   for (std::size_t c = 0; c < probes_.size(); ++c) {
-    told.run_outs.push_back(run_out_place_[c] >= 0 ? phasor(run_out_place_[c])
-                                                   : PhasorEstimate{probes_[c].run_out, 0.0, true});
+    result.run_outs.push_back(run_out_place_[c] >= 0
+                                  ? phasor(run_out_place_[c])
+                                  : PhasorEstimate{probes_[c].run_out, 0.0, true});
   }
-  for (Eigen::Index i = 0; i < solution.untold.cols(); ++i) {
+  for (Eigen::Index i = 0; i < solution.unidentifiable.cols(); ++i) {
     const auto part = [&](Eigen::Index place) {
-      return place < 0
-                 ? std::complex<double>()
-                 : std::complex<double>(solution.untold(place, i), solution.untold(place + 1, i));
+      return place < 0 ? std::complex<double>()
+                       : std::complex<double>(solution.unidentifiable(place, i),
+                                              solution.unidentifiable(place + 1, i));
     };
-    UnidentifiableCombination untold;
+    UnidentifiableCombination combination;
     for (std::size_t j = 0; j < planes_.size(); ++j) {
-      untold.planes.push_back(part(2 * static_cast<Eigen::Index>(j)));
+      combination.planes.push_back(part(2 * static_cast<Eigen::Index>(j)));
     }
     for (const Eigen::Index place : run_out_place_) {
-      untold.run_outs.push_back(part(place));
+      combination.run_outs.push_back(part(place));
     }
-    told.untold.push_back(std::move(untold));
+    result.unidentifiable.push_back(std::move(combination));
   }
-  told.samples = samples_;
-  told.lowest_speed = lowest_speed_;
-  told.highest_speed = highest_speed_;
-  told.duration = duration_;
+  result.samples = samples_;
+  result.lowest_speed = lowest_speed_;
+  result.highest_speed = highest_speed_;
+  result.duration = duration_;
   const double weights = weight_.squaredNorm() / static_cast<double>(probes_.size());
   const double values = std::max(1.0, static_cast<double>(solution.values));
-  told.synchronous = std::sqrt(solution.explained / values / weights);
-  told.noise = std::sqrt(solution.variance / weights);
-  told.beyond_noise = noise_known_ ? std::sqrt(solution.variance) : 0.0;
-  return told;
+  result.synchronous = std::sqrt(solution.explained / values / weights);
+  result.noise = std::sqrt(solution.variance / weights);
+  result.beyond_noise = noise_known_ ? std::sqrt(solution.variance) : 0.0;
+  return result;
 }
 
 }  // namespace whirl_twin

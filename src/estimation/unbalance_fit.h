@@ -93,8 +93,8 @@ struct ProbeReading {
 
 struct PhasorEstimate {
   std::complex<double> value;
-  double deviation = 0.0;  ///< standard deviation of real and imaginary part
-  bool told = true;        ///< identifiable; else there is no value
+  double deviation = 0.0;    ///< standard deviation of real and imaginary part
+  bool identifiable = true;  ///< else there is no value
 };
 
 /// A change of unknowns that leaves every reading unchanged.
@@ -106,7 +106,7 @@ struct UnidentifiableCombination {
 struct UnbalanceEstimate {
   std::vector<PhasorEstimate> planes;    ///< U_j [kg m], from the shaft's zero
   std::vector<PhasorEstimate> run_outs;  ///< r_c [m]; known ones unchanged
-  std::vector<UnidentifiableCombination> untold;
+  std::vector<UnidentifiableCombination> unidentifiable;
   std::int64_t samples = 0;
   double lowest_speed = 0.0, highest_speed = 0.0;  ///< [rad/s]
   double duration = 0.0;                           ///< [s]
@@ -122,7 +122,7 @@ class UnbalanceFit {
                const std::vector<RotorProbe>& probes);
 
   void take(const ProbeReading& reading);
-  UnbalanceEstimate told() const;
+  UnbalanceEstimate estimate() const;
 
  private:
   bool turnTo(const ProbeReading& reading);

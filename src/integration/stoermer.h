@@ -101,8 +101,8 @@ class Stoermer {
     }
     const Array error = lastError();
     for (std::size_t i = 0; i < n; ++i) {
-      const double told = kPart * ready_for_ * ready_for_ * largest[i];
-      if (!(std::fabs(error[i]) <= std::fmax(told, rounding))) {
+      const double estimated = kPart * ready_for_ * ready_for_ * largest[i];
+      if (!(std::fabs(error[i]) <= std::fmax(estimated, rounding))) {
         return false;
       }
     }

@@ -12,7 +12,7 @@
 namespace whirl_twin::state {
 
 struct LoopStatistics {
-  static constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
   static constexpr MessageKind kKind{"loop", "LoopStatistics", "loop", MessageKind::kLatched};
 
   Instant at;              ///< stamp: wall clock, or simulated time
@@ -48,10 +48,10 @@ struct LoopStatistics {
   std::uint64_t lcm_failed = 0;     ///< messages that LCM could not send
   std::uint64_t publish_every = 0;  ///< steps from one publication to the next, at present
   // Simulated time relative to wall time [-]; NaN: unknown.
-  double real_time_factor = kNotTold;  ///< asked; 0: all it can
-  double achieved_factor = kNotTold;   ///< since the last message
-  std::uint64_t ros_lost = 0;          ///< messages lost because ROS subscribers were too slow
-  std::string sender;                  ///< readable name of the publishing process; empty: unknown
+  double real_time_factor = kNotKnown;  ///< asked; 0: all it can
+  double achieved_factor = kNotKnown;   ///< since the last message
+  std::uint64_t ros_lost = 0;           ///< messages lost because ROS subscribers were too slow
+  std::string sender;                   ///< readable name of the publishing process; empty: unknown
   // One entry a controller in another process: the age of its newest command at each sample, since
   // the start or the last reset [samples]; NaN: there was none.
   std::vector<std::string> external;
@@ -59,14 +59,14 @@ struct LoopStatistics {
   std::vector<double> age_p99;
   std::vector<double> age_max;
   // Added later; NaN: unknown.
-  std::int32_t cpu = -1;                 ///< the processor to which the loop is pinned; -1: several
-  std::uint64_t late_wakeups = 0;        ///< overruns whose wake-up latency exceeded their run time
-  double wakeup_latency_min = kNotTold;  ///< [s]
-  double wakeup_latency_mean = kNotTold;  ///< [s]
-  double wakeup_latency_p999 = kNotTold;  ///< [s]
-  double execution_min = kNotTold;        ///< [s], of one step of everything
-  double execution_mean = kNotTold;       ///< [s]
-  double execution_p999 = kNotTold;       ///< [s]
+  std::int32_t cpu = -1;           ///< the processor to which the loop is pinned; -1: several
+  std::uint64_t late_wakeups = 0;  ///< overruns whose wake-up latency exceeded their run time
+  double wakeup_latency_min = kNotKnown;   ///< [s]
+  double wakeup_latency_mean = kNotKnown;  ///< [s]
+  double wakeup_latency_p999 = kNotKnown;  ///< [s]
+  double execution_min = kNotKnown;        ///< [s], of one step of everything
+  double execution_mean = kNotKnown;       ///< [s]
+  double execution_p999 = kNotKnown;       ///< [s]
   std::string waits_for;  ///< in lockstep: the nodes that it waits for at present; empty: none
   // One entry for each of its systems, and one for its controllers if it has any; since the start
   // or the last reset of the statistics. Added later still: absent from older logs.

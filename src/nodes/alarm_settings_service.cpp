@@ -34,13 +34,7 @@ XmlRpc::XmlRpcValue toParameter(const YAML::Node& node) {
 
 }  // namespace
 
-std::vector<std::string> parametersAtStart() {
-  std::vector<std::string> names{"lcm_url", "lcm_prefix", "source", "history", "await_scene"};
-  names.insert(names.end(), kParametersOfRos.begin(), kParametersOfRos.end());
-  return names;
-}
-
-LiveAlarmSettings alarmSettingsOf(const BuiltScene& scene) {
+LiveAlarmSettings alarmSettingsOf(const BuiltScene& scene, std::vector<std::string> others) {
   std::vector<std::string> rotors;
   std::vector<std::string> stations;
   for (const SharedSystem& system : scene.systems) {
@@ -54,7 +48,7 @@ LiveAlarmSettings alarmSettingsOf(const BuiltScene& scene) {
   const std::string node = ros::this_node::getName();
   const bool any = ros::param::get(node, all) && all.getType() == XmlRpc::XmlRpcValue::TypeStruct;
   return LiveAlarmSettings(any ? toYaml(all) : YAML::Node(YAML::NodeType::Map), node,
-                           std::move(rotors), parametersAtStart(), std::move(stations));
+                           std::move(rotors), std::move(others), std::move(stations));
 }
 
 AlarmSettingsService::AlarmSettingsService(TwinMonitor& monitor, LiveAlarmSettings& settings,

@@ -15,11 +15,9 @@
 
 namespace whirl_twin {
 
-/// Parameters of the node that are not alarm settings.
-std::vector<std::string> parametersAtStart();
-/// The settings by the node's parameters. Throws InputError for parameters of the node that are
-/// unknown or out of range.
-LiveAlarmSettings alarmSettingsOf(const BuiltScene& scene);
+/// The settings by the node's parameters; `others` are no alarm settings. Throws InputError for
+/// parameters of the node that are unknown or out of range.
+LiveAlarmSettings alarmSettingsOf(const BuiltScene& scene, std::vector<std::string> others);
 
 class AlarmSettingsService {
  public:

@@ -58,7 +58,7 @@ bool ChangedParameters::readAtStart(const std::string& name) const {
 std::string ChangedParameters::look() {
   XmlRpc::XmlRpcValue known = master_.ownParameters();
   if (known.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
-    return told_;
+    return reported_;
   }
   const YAML::Node now = toYaml(known);
   std::set<std::string> names;
@@ -94,10 +94,10 @@ std::string ChangedParameters::look() {
 void ChangedParameters::report(diagnostic_updater::Updater& diagnostics) {
   diagnostics.add("private parameters", [this](diagnostic_updater::DiagnosticStatusWrapper& s) {
     const std::string trouble = look();
-    if (trouble != told_ && !trouble.empty()) {
+    if (trouble != reported_ && !trouble.empty()) {
       ROS_WARN("private parameters: %s", trouble.c_str());
     }
-    told_ = trouble;
+    reported_ = trouble;
     s.summary(trouble.empty() ? diagnostic_msgs::DiagnosticStatus::OK
                               : diagnostic_msgs::DiagnosticStatus::WARN,
               trouble.empty() ? "all in force" : trouble);

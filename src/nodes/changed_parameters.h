@@ -38,7 +38,7 @@ class ChangedParameters {
   YAML::Node started_with_;
   std::string live_;  // values at the last poll
   std::string refusal_;
-  std::string told_;
+  std::string reported_;
 };
 
 }  // namespace whirl_twin

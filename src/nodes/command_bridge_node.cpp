@@ -41,7 +41,7 @@ NodeParameters table(BridgeParameters& p) {
       "set_parameter,\nset_input, set_real_time_factor. Needs no scene.");
   all.choice("role", p.role, {"take", "send"},
              "take: from LCM to the services of the simulation; send: from its own services to LCM")
-      .lcm(p.lcm_url, p.lcm_prefix)
+      .lcm(p.lcm_url, p.lcm_prefix, true)
       .text("simulation", p.simulation, "", "take: the node whose services are called")
       .number("lease", p.lease, {0.0, 3600.0, "s"},
               "take: time after a command during which other senders are refused")

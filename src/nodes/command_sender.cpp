@@ -22,11 +22,11 @@ void CommandSender::advertise(ros::NodeHandle& node, const std::string& command)
   using Response = typename Service::Response;
   const boost::function<bool(Request&, Response&)> serve = [this, command](Request& request,
                                                                            Response& response) {
-    twin_command_t told{};
-    told.command = command;
-    TellFields<twin_command_t> tell(told);
+    twin_command_t message{};
+    message.command = command;
+    TellFields<twin_command_t> tell(message);
     fieldsOf(tell, request);
-    const std::optional<command_answer_t> answer = exchange(told);
+    const std::optional<command_answer_t> answer = exchange(message);
     response.success = answer && answer->done != 0;
     response.message =
         answer ? answer->message

@@ -87,13 +87,13 @@ void DuplicatePublishers::report(diagnostic_updater::Updater& diagnostics) {
 /// The present problem; logged when it changes.
 std::string DuplicatePublishers::trouble() {
   std::string found = senders_.trouble(now());
-  if (found != told_) {
+  if (found != logged_) {
     if (found.empty()) {
       ROS_INFO("no duplicate publisher is left on its LCM channels");
     } else {
       ROS_ERROR("%s", found.c_str());
     }
-    told_ = found;
+    logged_ = found;
   }
   return found;
 }

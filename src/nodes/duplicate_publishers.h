@@ -45,7 +45,7 @@ class DuplicatePublishers {
   std::string prefix_;
   std::unique_ptr<ChannelListener> listener_;
   RefusedPayloads refused_;
-  std::string told_;
+  std::string logged_;
 };
 
 }  // namespace whirl_twin

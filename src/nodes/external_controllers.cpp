@@ -157,15 +157,15 @@ void ExternalControllers::tell(Connection& connection, const ExternalSample& sam
   message.run = sample.run;
   connection.measurement.publish(message);
   if (lcm_) {
-    controller_measurement_t told;
-    told.utime = std::llround(sample.time * 1e6);
-    told.controller = connection.name;
-    told.sample = sample.sample;
-    told.time = sample.time;
-    told.count = static_cast<std::int32_t>(sample.values.size());
-    told.values = sample.values;
-    told.run = sample.run;
-    lcm_->publish(connection.lcm_channel + "_SAMPLE", &told);
+    controller_measurement_t sample_message;
+    sample_message.utime = std::llround(sample.time * 1e6);
+    sample_message.controller = connection.name;
+    sample_message.sample = sample.sample;
+    sample_message.time = sample.time;
+    sample_message.count = static_cast<std::int32_t>(sample.values.size());
+    sample_message.values = sample.values;
+    sample_message.run = sample.run;
+    lcm_->publish(connection.lcm_channel + "_SAMPLE", &sample_message);
   }
 }
 

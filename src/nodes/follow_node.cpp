@@ -90,11 +90,11 @@ void report(const MachineInput& input, const FollowPublisher& publisher,
   }
   status.add("ignored, of other machines", input.runs().ofOthers());
   status.add("re-initializations", follower.restarts());
-  for (const auto& [system, told] : publisher.told()) {
+  for (const auto& [system, state] : publisher.published()) {
     status.add(
         system,
-        fmt::format("{} used, {} rejected, {} invalid, {} late, {} lost, {} repeated", told.used,
-                    told.refused, told.invalid, told.late, told.lost, told.repeated));
+        fmt::format("{} used, {} rejected, {} invalid, {} late, {} lost, {} repeated", state.used,
+                    state.refused, state.invalid, state.late, state.lost, state.repeated));
   }
 }
 
@@ -132,11 +132,11 @@ void run() {
   };
   ClockOffsetEstimator clocks;
   std::int64_t restarts = 0;
-  listener.follow = [&](state::FollowState told) {
-    told.clock_offset = clocks.offset();
-    told.clock_offset_deviation = clocks.deviation();
-    told.clock_drift = clocks.drift();
-    publisher.publish(told);
+  listener.follow = [&](state::FollowState state) {
+    state.clock_offset = clocks.offset();
+    state.clock_offset_deviation = clocks.deviation();
+    state.clock_drift = clocks.drift();
+    publisher.publish(state);
   };
   StateEstimator follower(twin, generations, estimated, every, listener);
   following = &follower;

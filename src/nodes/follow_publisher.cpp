@@ -40,22 +40,22 @@ void FollowPublisher::tellAgain() {
   states_.republishParameters();
 }
 
-void FollowPublisher::publish(state::FollowState told) {
-  told.at.stamp = stamp_;
-  states_.tell(told);
-  told_[told.system] = told;
+void FollowPublisher::publish(state::FollowState state) {
+  state.at.stamp = stamp_;
+  states_.tell(state);
+  published_[state.system] = state;
 }
 
 void FollowPublisher::publishSilence(double silent, double step_seconds) {
-  for (const auto& [system, last] : told_) {
-    state::FollowState told = last;
-    told.at.time += silent;
-    told.at.step += std::llround(silent / step_seconds);
-    told.at.stamp += std::llround(1.0e9 * silent);
-    std::fill(told.channel_status.begin(), told.channel_status.end(),
+  for (const auto& [system, last] : published_) {
+    state::FollowState state = last;
+    state.at.time += silent;
+    state.at.step += std::llround(silent / step_seconds);
+    state.at.stamp += std::llround(1.0e9 * silent);
+    std::fill(state.channel_status.begin(), state.channel_status.end(),
               static_cast<std::uint8_t>(state::ChannelStatus::kSilent));
-    std::fill(told.residual.begin(), told.residual.end(), state::FollowState::kNone);
-    states_.tell(told);
+    std::fill(state.residual.begin(), state.residual.end(), state::FollowState::kNone);
+    states_.tell(state);
   }
   send();
 }

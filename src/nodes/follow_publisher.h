@@ -32,7 +32,7 @@ class FollowPublisher {
   /// [ns], of the messages published from now on.
   void setStamp(std::int64_t stamp) { stamp_ = stamp; }
   void publish(const double* record);
-  void publish(state::FollowState told);
+  void publish(state::FollowState state);
   void publish(const state::Measurement& raw) { states_.tell(raw); }
   /// No message for `silent` [s]: publishes and sends the estimates with every channel marked as
   /// timed out.
@@ -40,7 +40,7 @@ class FollowPublisher {
   /// Republishes on LCM, which has no latched topics: the scene, and the present parameters.
   void tellAgain();
   /// The latest of each system.
-  const std::map<std::string, state::FollowState>& told() const { return told_; }
+  const std::map<std::string, state::FollowState>& published() const { return published_; }
 
  private:
   Observer observer_;
@@ -48,7 +48,7 @@ class FollowPublisher {
   StatePublisher states_;
   state::SceneText scene_;
   std::int64_t stamp_ = 0;  // [ns]
-  std::map<std::string, state::FollowState> told_;
+  std::map<std::string, state::FollowState> published_;
 };
 
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@ namespace whirl_twin {
 NewestStates::NewestStates(std::chrono::microseconds period,
                            std::function<void(const Message&)> tell,
                            std::function<std::int64_t()> now)
-    : period_(period), tell_(std::move(tell)), now_(std::move(now)), told_(now_()) {}
+    : period_(period), tell_(std::move(tell)), now_(std::move(now)), published_at_(now_()) {}
 
 void NewestStates::take(const Message& message, std::int64_t arrived) {
   std::visit(
@@ -28,14 +28,14 @@ void NewestStates::take(const Message& message, std::int64_t arrived) {
 }
 
 void NewestStates::tellDue() {
-  if (now_() - told_ >= period_.count()) {
+  if (now_() - published_at_ >= period_.count()) {
     tellAll();
-    told_ = now_();
+    published_at_ = now_();
   }
 }
 
 std::chrono::microseconds NewestStates::nextDue(std::chrono::microseconds longest) const {
-  const std::chrono::microseconds left(told_ + period_.count() - now_());
+  const std::chrono::microseconds left(published_at_ + period_.count() - now_());
   return kept_.empty() ? longest : std::clamp(left, std::chrono::microseconds(1), longest);
 }
 

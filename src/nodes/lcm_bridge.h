@@ -51,7 +51,7 @@ class NewestStates {
   std::function<void(const Message&)> tell_;
   std::function<std::int64_t()> now_;
   std::map<std::pair<const MessageKind*, std::string>, Kept> kept_;
-  std::int64_t told_;  // [us], last publication
+  std::int64_t published_at_;  // [us], last publication
   std::uint64_t left_out_ = 0;
   TimingHistogram latency_;
 };

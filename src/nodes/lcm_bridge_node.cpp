@@ -47,7 +47,7 @@ NodeParameters table(LcmBridgeParameters& p) {
       "lcm_bridge_node",
       "Publishes the LCM channels of a twin on the ROS topics of a live one: for played logs and\n"
       "twins on other machines. Needs no scene.");
-  all.lcm(p.lcm_url, p.lcm_prefix)
+  all.lcm(p.lcm_url, p.lcm_prefix, true)
       .flag("derived", p.derived, "also publish recorded margins and alerts")
       .number("newest", p.newest, {0.0, 1.0e5, "Hz", "every message"},
               "publish only the newest state, at this rate");

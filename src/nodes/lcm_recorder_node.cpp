@@ -25,7 +25,7 @@ NodeParameters table(RecorderParameters& p) {
   NodeParameters all("lcm_recorder_node",
                      "Records the LCM channels of a twin as an LCM log, until it is interrupted.");
   all.text("log", p.log, "none, it is required", "the file to write")
-      .lcm(p.lcm_url, p.lcm_prefix)
+      .lcm(p.lcm_url, p.lcm_prefix, true)
       .flag("force", p.force, "overwrite an existing file");
   return all;
 }

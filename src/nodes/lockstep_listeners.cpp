@@ -178,9 +178,9 @@ void LockstepListeners::tellNews() {
                                              waits, acknowledgements_.getTopic())
                            : !out.empty() ? fmt::format("continues without {}", out)
                                           : "all nodes are in step";
-  if (news != told_) {
+  if (news != logged_) {
     ROS_INFO("lockstep: %s", news.c_str());
-    told_ = news;
+    logged_ = news;
   }
 }
 

@@ -53,7 +53,7 @@ class LockstepListeners {
   ros::Subscriber acknowledgements_;
   ros::AsyncSpinner thread_{1, &queue_};
   std::map<std::string, std::set<int>> seen_;  // connections at the last poll
-  std::string told_;                           // last logged
+  std::string logged_;                         // last logged
   ros::SteadyTime next_look_;
   std::atomic<std::uint64_t> strays_{0};  // acknowledgements of other nodes, or of future steps
 };

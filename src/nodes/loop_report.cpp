@@ -62,14 +62,14 @@ state::LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
       const auto place =
           static_cast<std::size_t>(&controller - twin.control().controllers().data());
       const TimingHistogram ages = external->ages();
-      const auto told = [&](std::int64_t age) {
+      const auto inSeconds = [&](std::int64_t age) {
         return ages.count() > 0 ? static_cast<double>(age)
                                 : std::numeric_limits<double>::quiet_NaN();
       };
       m.external.push_back(twin.scene().controllers[place].name);
-      m.age_p50.push_back(told(ages.percentile(50.0)));
-      m.age_p99.push_back(told(ages.percentile(99.0)));
-      m.age_max.push_back(told(ages.max()));
+      m.age_p50.push_back(inSeconds(ages.percentile(50.0)));
+      m.age_p99.push_back(inSeconds(ages.percentile(99.0)));
+      m.age_max.push_back(inSeconds(ages.max()));
     }
   }
   return m;

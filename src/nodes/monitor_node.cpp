@@ -86,12 +86,14 @@ const ros::NodeHandle& awaitScene(const ros::NodeHandle& node, double longest) {
 
 class MonitorNode {
  public:
-  MonitorNode(ros::NodeHandle node, const MonitorParameters& parameters)
+  MonitorNode(ros::NodeHandle node, const MonitorParameters& parameters,
+              std::vector<std::string> names)
       : node_(node),
+        names_(std::move(names)),
         given_(parameterTree(awaitScene(node, parameters.await_scene), "scene")),
         scene_(build(readScene(given_.tree, given_.source))),
         watched_scene_(sceneLines(given_.tree), given_.source),
-        settings_(alarmSettingsOf(scene_)),
+        settings_(alarmSettingsOf(scene_, names_)),
         monitor_(scene_, settings_.settings(), EvaluationQueue::Mode::kConcurrent),
         url_(parameters.lcm_url),
         lcm_(url_, parameters.lcm_prefix),
@@ -341,6 +343,7 @@ class MonitorNode {
   }
 
   ros::NodeHandle node_;
+  std::vector<std::string> names_;  // of the private parameters that are no settings of alarms
   ParameterTree given_;
   BuiltScene scene_;
   WatchedScene watched_scene_;
@@ -357,9 +360,8 @@ class MonitorNode {
   std::vector<ros::Subscriber> subscribers_;
   std::unique_ptr<LcmReceiver> receiver_;
   MasterWatch master_;
-  ChangedParameters parameters_{master_, parametersAtStart(), [this](const YAML::Node& all) {
-                                  return settings_service_.obey(all);
-                                }};
+  ChangedParameters parameters_{
+      master_, names_, [this](const YAML::Node& all) { return settings_service_.obey(all); }};
   diagnostic_updater::Updater diagnostics_;
   std::optional<RefusalReport> refused_payloads_;
   std::uint64_t rejected_ = 0;
@@ -373,8 +375,9 @@ class MonitorNode {
 void run() {
   usePlugins();
   MonitorParameters parameters;
-  table(parameters).read();
-  MonitorNode monitor(ros::NodeHandle(twinNamespace()), parameters);
+  const NodeParameters all = table(parameters);
+  all.read();
+  MonitorNode monitor(ros::NodeHandle(twinNamespace()), parameters, all.names());
   while (!stopRequested() && ros::ok()) {
     monitor.spinOnce();
   }

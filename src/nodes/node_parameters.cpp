@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -21,12 +22,19 @@ namespace {
 
 constexpr std::size_t kHelpWidth = 96;
 
+/// Private parameters that ROS's own libraries read.
+constexpr const char* kParametersOfRos[] = {"diagnostic_period", "diagnostic_updater_use_fqn",
+                                            "tf_prefix"};
+
 bool isIn(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 std::string rangeText(const ParameterRange& range) {
   const std::string unit = *range.unit == '\0' ? "" : std::string(" ") + range.unit;
+  if (range.zero && range.low == 0.0) {
+    return fmt::format("from 0 ({}) to {:g}{}", range.zero, range.high, unit);
+  }
   const std::string zero = range.zero ? fmt::format("0 ({}), or ", range.zero) : "";
   return std::isinf(range.high)
              ? fmt::format("{}at least {:g}{}", zero, range.low, unit)
@@ -125,10 +133,17 @@ NodeParameters& NodeParameters::text(const char* name, std::string& value, const
              [&value](const std::string& full) { return readAs(full, "a text", value); });
 }
 
-NodeParameters& NodeParameters::lcm(std::string& url, std::string& prefix) {
+NodeParameters& NodeParameters::lcm(std::string& url, std::string& prefix, bool required) {
   url = kDefaultLcmUrl;
   prefix_ = &prefix;
-  text("lcm_url", url, "", "URL of LCM, empty: no LCM");
+  add("lcm_url",
+      fmt::format("URL of LCM{}; default: {}", required ? "" : ", empty: no LCM", kDefaultLcmUrl),
+      [&url, required](const std::string& full) -> std::string {
+        std::string fault = readAs(full, "an LCM URL", url);
+        return !fault.empty() || !required || !url.empty()
+                   ? fault
+                   : fmt::format("{}: must be an LCM URL, found nothing", full);
+      });
   return text("lcm_prefix", prefix, "TWIN_, or the namespace of the twin in capitals",
               "prefix of the twin's LCM channels");
 }
@@ -141,6 +156,14 @@ NodeParameters& NodeParameters::others(std::string text) {
   others_ = std::move(text);
   all_known_ = false;
   return *this;
+}
+
+std::vector<std::string> NodeParameters::names() const {
+  std::vector<std::string> all(std::begin(kParametersOfRos), std::end(kParametersOfRos));
+  for (const Entry& entry : entries_) {
+    all.push_back(entry.name);
+  }
+  return all;
 }
 
 std::string NodeParameters::help() const {
@@ -162,16 +185,14 @@ std::string NodeParameters::help() const {
 
 void NodeParameters::read() const {
   const std::string node = ros::this_node::getName();
-  std::vector<std::string> known, faults;
-  for (const Entry& entry : entries_) {
-    known.push_back(entry.name);
-  }
+  const std::vector<std::string> known = names();
+  std::vector<std::string> faults;
   XmlRpc::XmlRpcValue all;
   if (all_known_ && ros::param::get(node, all) &&
       all.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
     for (const auto& parameter : all) {
       const std::string& name = parameter.first;
-      if (!isIn(known, name) && !isIn(kParametersOfRos, name)) {
+      if (!isIn(known, name)) {
         faults.push_back(
             fmt::format("{}/{}: unknown parameter{}", node, printable(name), hint(name, known)));
       }

@@ -9,10 +9,6 @@
 
 namespace whirl_twin {
 
-/// Private parameters that ROS's own libraries read.
-inline const std::vector<std::string> kParametersOfRos{"diagnostic_period",
-                                                       "diagnostic_updater_use_fqn", "tf_prefix"};
-
 /// Range of a number.
 struct ParameterRange {
   double low, high;
@@ -36,13 +32,16 @@ class NodeParameters {
   /// `otherwise`: description of the default, for a value that is initially empty.
   NodeParameters& text(const char* name, std::string& value, const char* otherwise,
                        const char* text);
-  /// ~lcm_url, and the prefix of the twin's channels: by default its namespace in capitals.
-  NodeParameters& lcm(std::string& url, std::string& prefix);
+  /// ~lcm_url, and the prefix of the twin's channels: by default its namespace in capitals. An
+  /// empty URL switches LCM off, unless the node needs it (`required`).
+  NodeParameters& lcm(std::string& url, std::string& prefix, bool required = false);
   /// A parameter that other code reads.
   NodeParameters& other(const char* name, const char* text);
   /// All other names are valid, as other code checks them; `text` explains them below the list.
   NodeParameters& others(std::string text);
 
+  /// All declared, and those that ROS's own libraries read.
+  std::vector<std::string> names() const;
   /// The text of --help: needs no ROS master.
   std::string help() const;
   /// Reads all from the parameter server. Throws InputError with every parameter that is unknown,

@@ -45,8 +45,8 @@ void requestStop(int signal) {
 /// False if a signal arrived first. (Without a master, the registration of the first topic or
 /// service would block and ignore stopRequested(): hence the wait here.)
 bool waitForMaster(const char* name) {
-  for (bool told = false; !ros::master::check(); told = true) {
-    if (!told) {
+  for (bool logged = false; !ros::master::check(); logged = true) {
+    if (!logged) {
       std::fprintf(stderr, "%s: waiting for a ROS master at %s\n", name,
                    ros::master::getURI().c_str());
     }

@@ -183,7 +183,7 @@ std::string durationText(double seconds) {
                                : fmt::format("{:.3g} years", seconds / kYear);
 }
 
-bool isTold() {
+bool isAnnounced() {
   return announced.load();
 }
 

@@ -48,6 +48,6 @@ std::string durationText(double seconds);
 /// what takes more than a day or more memory than is free, unless `insist`.
 void tell(const AskedCost& cost, bool insist);
 /// A long run has been announced.
-bool isTold();
+bool isAnnounced();
 
 }  // namespace whirl_twin

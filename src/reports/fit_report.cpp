@@ -222,9 +222,9 @@ std::string checkText(const FitStudy& study) {
 
 std::string text(const FitStudy& study, const ShootingFit& fit) {
   std::string out = fittedParameterText(fit);
-  if (!fit.information.untold.empty()) {
+  if (!fit.information.unidentifiable.empty()) {
     out += "Not identifiable from the runs (these parameters keep their start values)\n";
-    for (const UnidentifiableDirection& direction : fit.information.untold) {
+    for (const UnidentifiableDirection& direction : fit.information.unidentifiable) {
       out += "  " + directionText(fit, direction) + "\n";
     }
   }
@@ -295,10 +295,10 @@ Json json(const FitStudy& study, const ShootingFit& fit) {
   }
   json["undetermined"] = Json::array();
   json["directions"] = listJson(
-      fit.information.untold,
+      fit.information.unidentifiable,
       [&](const UnidentifiableDirection& direction) { return directionText(fit, direction); });
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (!std::isfinite(fit.information.deviation[i]) && !fit.information.untold.empty()) {
+    if (!std::isfinite(fit.information.deviation[i]) && !fit.information.unidentifiable.empty()) {
       json["undetermined"].push_back(fit.unknowns[static_cast<std::size_t>(i)].name);
     }
   }
@@ -383,7 +383,7 @@ std::string fittedScene(const FitStudy& study, const ShootingFit& fit, const std
                             ? fmt::format("standard deviation {:.3g} {}", deviation, u.unit)
                             : std::string("not identifiable from the runs: unchanged"));
   }
-  for (const UnidentifiableDirection& direction : fit.information.untold) {
+  for (const UnidentifiableDirection& direction : fit.information.unidentifiable) {
     head += "# Not identifiable: " + printable(directionText(fit, direction), kMaxRemark) + "\n";
   }
   moveTables(scene, std::filesystem::path(study.scene_path).parent_path(), folder);

@@ -28,7 +28,7 @@ void add(const state::FollowState& now, EstimatorSystem& system) {
     system.drift_from = now.drift_from;
     system.drift_to = now.drift_to;
     system.drift_since = now.drift_since;
-    system.drift_told = now.at.time;
+    system.drift_reported = now.at.time;
   }
   system.found = system.found || now.used > 0;
   system.last = now;
@@ -122,7 +122,7 @@ std::string followedSystemText(const EstimatorSystem& system) {
   if (!system.drift_parameter.empty()) {
     out += fmt::format("  drift: {} from {:.6g} to {:.6g}, since {:.1f} s, detected at {:.1f} s\n",
                        system.drift_parameter, system.drift_from, system.drift_to,
-                       system.drift_since, system.drift_told);
+                       system.drift_since, system.drift_reported);
   }
   return out;
 }
@@ -243,7 +243,7 @@ Json json(const FollowedLog& run) {
                                                        {"from", s.drift_from},
                                                        {"to", s.drift_to},
                                                        {"since", s.drift_since},
-                                                       {"told", s.drift_told}};
+                                                       {"told", s.drift_reported}};
     out["systems"][s.name] = system;
   }
   return out;

@@ -41,8 +41,8 @@ struct EstimatorSystem {
   std::string drift_parameter;
   double drift_from = kNaN;
   double drift_to = kNaN;
-  double drift_since = kNaN;  ///< [s]
-  double drift_told = kNaN;   ///< [s]
+  double drift_since = kNaN;     ///< [s]
+  double drift_reported = kNaN;  ///< [s]
 };
 
 struct FollowedLog {

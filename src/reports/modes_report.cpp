@@ -216,7 +216,7 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
     }
     ambient.take(sample);
   });
-  report.record = ambient.told();
+  report.record = ambient.record();
   if (report.record) {
     report.speed = report.record->speed;
     report.model = whirlsFirst(whirlModes(system.rotor, system.stations, report.speed).modes);

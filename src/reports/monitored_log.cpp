@@ -202,36 +202,36 @@ class Replay {
       }
     }
   }
-  void draw(const state::OrderState& told) {
-    if (!monitor_.measures(told.system)) {
-      drawOrders(told, courseOf(told.system));
+  void draw(const state::OrderState& state) {
+    if (!monitor_.measures(state.system)) {
+      drawOrders(state, courseOf(state.system));
     }
   }
-  void drawOrders(const state::OrderState& told, SystemCourse* course) {
+  void drawOrders(const state::OrderState& state, SystemCourse* course) {
     if (course == nullptr) {
       return;
     }
     OrderCourse& orders = course->orders;
-    const double time = told.at.time - told.delay;
-    if (!told.line_frequency.empty()) {
+    const double time = state.at.time - state.delay;
+    if (!state.line_frequency.empty()) {
       orders.line_time.push_back(time);
-      orders.line_frequency.push_back(told.line_frequency.front());
+      orders.line_frequency.push_back(state.line_frequency.front());
     }
-    const auto first = std::find(told.order.begin(), told.order.end(), 1.0);
-    if (!told.valid || first == told.order.end()) {
+    const auto first = std::find(state.order.begin(), state.order.end(), 1.0);
+    if (!state.valid || first == state.order.end()) {
       return;
     }
     if (!orders.time.empty() && time <= orders.time.back() &&
         time > orders.time.back() - kMaxWindow) {
       return;  // from a longer window than the one before: it says nothing new
     }
-    const auto place = static_cast<std::size_t>(first - told.order.begin());
+    const auto place = static_cast<std::size_t>(first - state.order.begin());
     const double before = orders.lag.empty() ? 0.0 : orders.lag.back();
     orders.time.push_back(time);
-    orders.speed.push_back(told.speed);
-    orders.amplitude.push_back(told.forward_amplitude[place]);
-    orders.deviation.push_back(told.deviation[place]);
-    orders.lag.push_back(before + std::remainder(told.forward_lag[place] - before, kTwoPi));
+    orders.speed.push_back(state.speed);
+    orders.amplitude.push_back(state.forward_amplitude[place]);
+    orders.deviation.push_back(state.deviation[place]);
+    orders.lag.push_back(before + std::remainder(state.forward_lag[place] - before, kTwoPi));
   }
   void draw(const state::FollowState&) {}      // its alerts tell it
   void draw(const state::ControllerState&) {}  // likewise

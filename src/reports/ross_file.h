@@ -44,7 +44,7 @@ struct RossAxes {
   std::size_t count() const { return places.empty() ? 1 : places.size(); }
 };
 
-/// What is not as it must be is added to the diagnostics, and is 0.
+/// Invalid values are 0, and are added to the diagnostics.
 class RossFile {
  public:
   /// Throws InputError for what is no such file.

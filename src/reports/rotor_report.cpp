@@ -23,7 +23,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::size_t kModesDrawn = 6;
-constexpr std::size_t kModesTold = 12;
+constexpr std::size_t kMaxModes = 12;
 constexpr std::size_t kBranches = 12;
 
 std::string numberOrDash(double value) {
@@ -182,7 +182,7 @@ class RotorReport {
   void modes() {
     const ModesReport report = modesReport(system_, speed_);
     std::vector<std::vector<std::string>> rows;
-    for (std::size_t k = 0; k < std::min(kModesTold, report.model.size()); ++k) {
+    for (std::size_t k = 0; k < std::min(kMaxModes, report.model.size()); ++k) {
       const WhirlMode& mode = report.model[k];
       rows.push_back({std::to_string(k + 1), name(mode.whirl), numberOrDash(mode.dampedFrequency()),
                       rpm(mode.dampedFrequency()), numberOrDash(mode.dampingRatio()),
@@ -191,9 +191,9 @@ class RotorReport {
     }
     page_.table({"mode", "whirl", "rad/s", "rpm", "damping ratio", "log. decrement", ""}, rows);
     page_.picture(figure(report, kModesDrawn));
-    if (report.model.size() > kModesTold) {
+    if (report.model.size() > kMaxModes) {
       missing_.push_back(fmt::format("Whirl modes: {} are listed, of {} computed (`twin modes`)",
-                                     kModesTold, report.model.size()));
+                                     kMaxModes, report.model.size()));
     }
   }
 

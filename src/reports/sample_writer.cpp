@@ -184,7 +184,7 @@ class LogWriter final : public SampleWriter {
 
   void write(const state::Measurement& measurement) override { log_.write(measurement); }
 
-  void write(const state::FollowState& told) override { log_.write(told); }
+  void write(const state::FollowState& state) override { log_.write(state); }
 
   void finish() override {
     log_.finish();

@@ -49,7 +49,7 @@ std::vector<BalancingPlane> planesOf(const RotorSystem& system,
 
 /// The members of a combination that is not identifiable; of planes and run-outs each, relative to
 /// the largest of their kind.
-std::string partners(const UnbalanceReport& report, const UnidentifiableCombination& untold) {
+std::string partners(const UnbalanceReport& report, const UnidentifiableCombination& combination) {
   std::vector<std::string> names;
   const auto collect = [&](const std::vector<std::complex<double>>& parts,
                            const std::vector<std::string>& of, const char* what) {
@@ -63,25 +63,25 @@ std::string partners(const UnbalanceReport& report, const UnidentifiableCombinat
       }
     }
   };
-  collect(untold.planes, report.planes, "the unbalance at");
-  collect(untold.run_outs, report.probes, "the run-out under");
+  collect(combination.planes, report.planes, "the unbalance at");
+  collect(combination.run_outs, report.probes, "the run-out under");
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
 void addUnbalanceNotes(UnbalanceReport& report) {
   const UnbalanceEstimate& found = report.estimate;
-  if (!found.untold.empty()) {
+  if (!found.unidentifiable.empty()) {
     const bool one_speed =
         found.highest_speed - found.lowest_speed < kSameSpeed * found.highest_speed;
     report.notes.push_back(fmt::format(
-        "{} unknowns are not identifiable from the log: {}", found.untold.size(),
+        "{} unknowns are not identifiable from the log: {}", found.unidentifiable.size(),
         one_speed ? "at one speed run-out and unbalance have the same effect. Add a second speed, "
                     "preferably a slow one, or use known run-outs (--known-run-out)"
                   : "some planes have linearly dependent effects at these speeds. Use fewer planes "
                     "(--planes), or a range with another critical speed"));
     std::vector<std::string> said;
-    for (const UnidentifiableCombination& untold : found.untold) {
-      const std::string who = partners(report, untold);
+    for (const UnidentifiableCombination& combination : found.unidentifiable) {
+      const std::string who = partners(report, combination);
       if (std::find(said.begin(), said.end(), who) == said.end()) {
         said.push_back(who);
         report.notes.push_back("not identifiable separately: " + who);
@@ -112,7 +112,7 @@ double angleDeviation(const PhasorEstimate& estimate) {
 }
 
 Json massJson(const UnbalanceReport& report, const PhasorEstimate& estimate, double sign) {
-  const bool known = estimate.told;
+  const bool known = estimate.identifiable;
   return {{"mass_radius", known ? Json(std::abs(estimate.value)) : Json()},
           {"angle", known ? Json(angleOf(report, sign * estimate.value)) : Json()},
           {"mass_radius_deviation", known ? Json(estimate.deviation) : Json()},
@@ -122,7 +122,7 @@ Json massJson(const UnbalanceReport& report, const PhasorEstimate& estimate, dou
 std::string massLine(const UnbalanceReport& report, std::size_t plane, double sign) {
   const PhasorEstimate& estimate = report.estimate.planes[plane];
   const std::string name = printable(report.planes[plane]);
-  return estimate.told
+  return estimate.identifiable
              ? fmt::format("  {:<18} {:>14.6g} +- {:<9.2g} {:>11.3f} +- {:.2g}\n", name,
                            std::abs(estimate.value), estimate.deviation,
                            angleOf(report, sign * estimate.value), angleDeviation(estimate))
@@ -169,7 +169,7 @@ UnbalanceReport unbalanceReport(const RotorSystem& system, const RotorRecord& re
         "among {} samples",
         record.log(), request.from, request.to, report.counts.samples + report.counts.no_angle));
   }
-  report.estimate = fit.told();
+  report.estimate = fit.estimate();
   report.notes = record.notes();
   if (const std::string pulses = report.counts.pulseNote(); !pulses.empty()) {
     report.notes.push_back(pulses);
@@ -190,15 +190,15 @@ Json json(const UnbalanceReport& report) {
   for (std::size_t i = 0; i < report.probes.size(); ++i) {
     const PhasorEstimate& one = found.run_outs[i];
     json["run_out"][report.probes[i]] =
-        one.told ? Json({{"amplitude", std::abs(one.value)},
-                         {"phase_lag", -std::arg(one.value) / kDegree + 0.0},
-                         {"deviation", one.deviation}})
-                 : Json();
+        one.identifiable ? Json({{"amplitude", std::abs(one.value)},
+                                 {"phase_lag", -std::arg(one.value) / kDegree + 0.0},
+                                 {"deviation", one.deviation}})
+                         : Json();
   }
-  json["rank_deficiency"] = found.untold.size();
-  json["undetermined"] = listJson(found.untold, [&](const UnidentifiableCombination& untold) {
-    return partners(report, untold);
-  });
+  json["rank_deficiency"] = found.unidentifiable.size();
+  json["undetermined"] = listJson(
+      found.unidentifiable,
+      [&](const UnidentifiableCombination& combination) { return partners(report, combination); });
   json["lowest_speed"] = found.lowest_speed;
   json["highest_speed"] = found.highest_speed;
   json["duration"] = found.duration;
@@ -247,10 +247,10 @@ std::string text(const UnbalanceReport& report) {
   for (std::size_t i = 0; i < report.probes.size(); ++i) {
     const PhasorEstimate& one = found.run_outs[i];
     const std::string name = printable(report.probes[i]);
-    out += one.told ? fmt::format("  {:<18} {:>14.4g} +- {:<9.2g} {:>11.2f}\n", name,
-                                  std::abs(one.value), one.deviation,
-                                  -std::arg(one.value) / kDegree + 0.0)
-                    : fmt::format("  {:<18} {:>14}\n", name, "unidentifiable");
+    out += one.identifiable ? fmt::format("  {:<18} {:>14.4g} +- {:<9.2g} {:>11.2f}\n", name,
+                                          std::abs(one.value), one.deviation,
+                                          -std::arg(one.value) / kDegree + 0.0)
+                            : fmt::format("  {:<18} {:>14}\n", name, "unidentifiable");
   }
   return out + joined(report.notes, [](const std::string& note) { return note + "\n"; });
 }

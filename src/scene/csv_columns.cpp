@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uintmax_t kMaxCsvSize = 64u << 20;  // bytes; two million rows of two numbers
 
-constexpr std::size_t kMaxTold = 10;  // duplicate names, and columns of each, in a message
+constexpr std::size_t kMaxReported = 10;  // duplicate names, and columns of each, in a message
 
 /// Removes surrounding blanks, quotes, and a byte order mark.
 std::string trimmed(std::string text) {
@@ -39,7 +39,7 @@ std::string trimmed(std::string text) {
 
 /// "2 and 4", "2, 4 and 5"; long lists are truncated.
 std::string listed(const std::vector<std::size_t>& numbers) {
-  const std::size_t last = std::min(numbers.size(), kMaxTold) - 1;
+  const std::size_t last = std::min(numbers.size(), kMaxReported) - 1;
   const std::size_t more = numbers.size() - last - 1;
   return fmt::format(
       "{} and {}", fmt::join(numbers.begin(), numbers.begin() + last, ", "),
@@ -60,9 +60,9 @@ void requireDifferent(const std::vector<std::string>& header) {
           fmt::format("columns {} are named {}", listed(numbers), whirl_twin::inQuotes(name)));
     }
   }
-  if (repeated.size() > kMaxTold) {
-    const std::size_t more = repeated.size() - kMaxTold;
-    repeated.resize(kMaxTold);
+  if (repeated.size() > kMaxReported) {
+    const std::size_t more = repeated.size() - kMaxReported;
+    repeated.resize(kMaxReported);
     repeated.push_back(fmt::format("and {} more such names", more));
   }
   if (!repeated.empty()) {
@@ -113,7 +113,7 @@ std::vector<std::string> csvCells(const std::string& line) {
 }
 
 std::vector<std::vector<double>> csvColumns(const std::string& path,
-                                            const std::vector<std::string>& names) {
+                                            const std::vector<std::string>& names, bool* cut) {
   requireFile(path);
   std::ifstream file(path, std::ios::binary);
   std::string line;
@@ -135,6 +135,10 @@ std::vector<std::vector<double>> csvColumns(const std::string& path,
   for (std::size_t row = 2; std::getline(file, line); ++row) {
     if (trimmed(line).empty()) {
       continue;
+    }
+    if (cut != nullptr && file.eof()) {
+      *cut = true;
+      break;
     }
     const std::vector<std::string> values = csvCells(line);
     requireNames(header.size(), values, row);

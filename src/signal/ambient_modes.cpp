@@ -233,7 +233,7 @@ bool AmbientModes::takeBlock() {
   return true;
 }
 
-std::optional<AmbientRecord> AmbientModes::told() {
+std::optional<AmbientRecord> AmbientModes::record() {
   if (!block_.empty()) {
     endBlock(false);
   }

@@ -76,7 +76,7 @@ class AmbientModes {
   void take(const StationSample& sample);
   /// The result of all samples so far; nothing before the decimator has put out two hundred
   /// samples.
-  std::optional<AmbientRecord> told();
+  std::optional<AmbientRecord> record();
 
  private:
   void endBlock(bool whole);

@@ -63,7 +63,7 @@ void DecayAudit::clear() {
   block_.clear();
   rest_.clear();
   sizes_.clear();
-  since_told_ = 0;
+  since_report_ = 0;
 }
 
 std::optional<AuditedDecay> DecayAudit::take(const OrbitSample& sample) {
@@ -96,11 +96,11 @@ std::optional<AuditedDecay> DecayAudit::take(const OrbitSample& sample) {
   if (rest_.size() > length) {
     rest_.erase(rest_.begin(), rest_.end() - static_cast<std::ptrdiff_t>(length));
   }
-  if (rest_.size() < length || since_told_ < length / 4) {
+  if (rest_.size() < length || since_report_ < length / 4) {
     return std::nullopt;
   }
-  since_told_ = 0;
-  std::optional<AuditedDecay> decay = told();
+  since_report_ = 0;
+  std::optional<AuditedDecay> decay = audited();
   if (decay) {
     decay->time = sample.time;
   }
@@ -135,11 +135,11 @@ void DecayAudit::removeOrders() {
     // Forward is the direction of rotation.
     rest_.push_back(speed_ < 0.0 ? std::conj(fit.rest()[i]) : fit.rest()[i]);
   }
-  since_told_ += block_.size();
+  since_report_ += block_.size();
   block_.clear();
 }
 
-std::optional<AuditedDecay> DecayAudit::told() const {
+std::optional<AuditedDecay> DecayAudit::audited() const {
   double power = 0.0;
   for (const std::complex<double>& z : rest_) {
     power += std::norm(z) / static_cast<double>(rest_.size());

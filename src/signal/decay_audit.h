@@ -37,7 +37,7 @@ class DecayAudit {
 
  private:
   void removeOrders();
-  std::optional<AuditedDecay> told() const;
+  std::optional<AuditedDecay> audited() const;
 
   double window_;
   std::vector<OrbitSample> block_;          // samples, orders not yet removed
@@ -46,7 +46,7 @@ class DecayAudit {
   double step_ = 0.0;                       // [s]
   double speed_ = 0.0;                      // [rad/s], at the start of the record
   std::int64_t next_ = 0;                   // index expected
-  std::size_t since_told_ = 0;              // samples
+  std::size_t since_report_ = 0;            // samples
 };
 
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 //   AF = Nc / (N2 - N1),   N1 and N2 where the amplitude is 0.707 of the peak at Nc.
 //
 // In a fast passage the peak is later and lower than at constant speed: the factor is that of the
-// rotor where the passage is slow, a < 0.15 (N2 - N1)^2 (ISO 7626-2 is inQuotes with 54 f^2/Q^2
+// rotor where the passage is slow, a < 0.15 (N2 - N1)^2 (ISO 7626-2 is quoted with 54 f^2/Q^2
 // Hz/min, which is the same), and else too small.
 #pragma once
 

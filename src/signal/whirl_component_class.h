@@ -8,7 +8,7 @@ namespace whirl_twin {
 
 class WhirlComponentClass {
  public:
-  enum class Kind { kNotTold, kKeepsRatio, kKeepsFrequency };
+  enum class Kind { kUnknown, kKeepsRatio, kKeepsFrequency };
 
   /// The line at a speed of the shaft, both in rad/s and not 0.
   void take(double frequency, double speed) {
@@ -29,12 +29,12 @@ class WhirlComponentClass {
     constexpr double kClose = 0.3;
     const double variance = count_ > 1.0 ? (xx_ - x_ * x_ / count_) / count_ : 0.0;
     if (!(variance > kMinSpread * kMinSpread)) {
-      return Kind::kNotTold;
+      return Kind::kUnknown;
     }
     const double slope = (xy_ - x_ * y_ / count_) / count_ / variance;
     return std::fabs(slope - 1.0) < kClose ? Kind::kKeepsRatio
            : std::fabs(slope) < kClose     ? Kind::kKeepsFrequency
-                                           : Kind::kNotTold;
+                                           : Kind::kUnknown;
   }
 
  private:

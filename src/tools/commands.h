@@ -1,5 +1,5 @@
 // The commands of `twin`, one file each. Every function adds its command to the command line; when
-// the command is given, parsing runs it. A command that fails throws a InputError or a RunFailure,
+// the command is given, parsing runs it. A command that fails throws an InputError or a RunFailure,
 // which main() turns into messages and an exit status.
 #pragma once
 

@@ -32,7 +32,7 @@ Patience::~Patience() {
 void Patience::watch() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!ended_.wait_for(lock, kWaitBetween, [this] { return end_; })) {
-    if (isTold()) {
+    if (isAnnounced()) {
       return;
     }
     if (processorTime() > kLong) {

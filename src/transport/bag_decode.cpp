@@ -226,16 +226,16 @@ Message BagDecoder::jointState(const RosValues& values) {
   state::Measurement block;
   block.source = topic_;
   for (const bool rates : {false, true}) {
-    const std::vector<double> told = take(rates ? "velocity" : "position").real;
-    if (!told.empty() && told.size() != joints.size()) {
+    const std::vector<double> quantity = take(rates ? "velocity" : "position").real;
+    if (!quantity.empty() && quantity.size() != joints.size()) {
       throw RejectedMessage(fmt::format("{}: expected {} entries, found {}",
                                         rates ? "velocity" : "position", joints.size(),
-                                        told.size()));
+                                        quantity.size()));
     }
-    for (std::size_t i = 0; i < told.size(); ++i) {
+    for (std::size_t i = 0; i < quantity.size(); ++i) {
       block.channel.push_back(rates ? joints[i] + "_rate" : joints[i]);
-      block.value.push_back(told[i]);
-      block.valid.push_back(std::isfinite(told[i]) ? 1 : 0);
+      block.value.push_back(quantity[i]);
+      block.valid.push_back(std::isfinite(quantity[i]) ? 1 : 0);
     }
   }
   block.unit.assign(block.channel.size(), "");

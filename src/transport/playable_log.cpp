@@ -18,7 +18,7 @@ bool PlayedRun::take(const Message& message) {
   const auto* const loop = std::get_if<state::LoopStatistics>(&message);
   if (loop != nullptr) {
     loop_ = *loop;
-    told_ = true;
+    has_statistics_ = true;
   }
   if (seriesStep(message)) {
     std::visit(
@@ -33,7 +33,7 @@ bool PlayedRun::take(const Message& message) {
       jumped_ = false;
       // Announced twice, as subscribers require; a log without loop statistics needs one before
       // them, of the run that ends.
-      if (!told_) {
+      if (!has_statistics_) {
         say(jumps_, 0);
       }
       ++jumps_;
@@ -61,7 +61,7 @@ void PlayedRun::say(std::uint64_t epoch, std::int64_t later) {
   state::LoopStatistics said = loop_;
   said.at = now_;
   said.at.stamp += later;
-  said.started = told_ ? loop_.started : started_;
+  said.started = has_statistics_ ? loop_.started : started_;
   said.epoch += epoch;
   lcm_.publish(said);
 }

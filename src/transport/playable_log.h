@@ -45,8 +45,8 @@ class PlayedRun {
   std::int64_t started_;  ///< [ns], for a log without the start of its run
   state::LoopStatistics loop_;
   state::Instant now_;
-  bool heard_ = false;  ///< a message with an instant was played
-  bool told_ = false;   ///< the log has loop statistics
+  bool heard_ = false;           ///< a message with an instant was played
+  bool has_statistics_ = false;  ///< the log has loop statistics
   bool jumped_ = false;
   std::uint64_t jumps_ = 0;
 };

@@ -71,8 +71,8 @@ namespace {
 
 constexpr const char* kKind = "whirl_twin checkpoint ";
 constexpr int kFormat = 2;
-constexpr int kFormerFormat = 1;     // with a different checksum
-constexpr std::size_t kMaxTold = 5;  // differences
+constexpr int kFormerFormat = 1;         // with a different checksum
+constexpr std::size_t kMaxReported = 5;  // differences
 
 /// What bit-identical steps depend on besides.
 std::string machine() {
@@ -260,19 +260,20 @@ void requireScene(const Checkpoint& checkpoint, const SceneLines& scene,
   };
   SceneLines all = scene;
   all.insert(checkpoint.scene.begin(), checkpoint.scene.end());
-  std::string told;
+  std::string differences;
   std::size_t differ = 0;
   for (const auto& [key, unused] : all) {
     const std::string expected = find(scene, key);
     const std::string found = find(checkpoint.scene, key);
-    if (expected != found && ++differ <= kMaxTold) {
-      told += fmt::format("\n  {}: expected {:.80}, found {:.80}", key, expected, found);
+    if (expected != found && ++differ <= kMaxReported) {
+      differences += fmt::format("\n  {}: expected {:.80}, found {:.80}", key, expected, found);
     }
   }
   if (differ > 0) {
     refuse(source,
-           fmt::format("must be saved from the same scene{}{}", told,
-                       differ > kMaxTold ? fmt::format("\n  and {} more", differ - kMaxTold) : ""));
+           fmt::format(
+               "must be saved from the same scene{}{}", differences,
+               differ > kMaxReported ? fmt::format("\n  and {} more", differ - kMaxReported) : ""));
   }
 }
 

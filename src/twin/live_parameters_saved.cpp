@@ -34,7 +34,8 @@ YAML::Node LiveParameters::saved() const {
     }
     const state::ParameterChange now =
         isSystem(i) ? systems_[i]->parameters() : parametersOf(controllers_[i - systems_.size()]);
-    const state::ParameterChange told = twin_.generations()->at(i, generations_[i])->parameters;
+    const state::ParameterChange published =
+        twin_.generations()->at(i, generations_[i])->parameters;
     YAML::Node change;
     change["which"] = known[i];
     change["generation"] = generations_[i];
@@ -42,8 +43,8 @@ YAML::Node LiveParameters::saved() const {
     for (const double value : now.values) {
       change["values"].push_back(number(value));
     }
-    change["changed"] = told.changed;
-    for (const double value : told.previous) {
+    change["changed"] = published.changed;
+    for (const double value : published.previous) {
       change["previous"].push_back(number(value));
     }
     for (const auto& [from, to] : isSystem(i) ? made_ready_[i] : std::vector<SpeedRange>()) {

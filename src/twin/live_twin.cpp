@@ -212,9 +212,9 @@ void LiveTwin::save(StateImage& image) noexcept {
   twin_.exchange(image);
   const std::int64_t scheduled = RecordLayout::scheduled(record_.data());
   RecordLayout::setScheduled(record_.data(), RecordLayout::kSaved);
-  const bool told = image.sound() && ring_.push(record_.data());
+  const bool pushed = image.sound() && ring_.push(record_.data());
   RecordLayout::setScheduled(record_.data(), scheduled);
-  finish(told, 0.0);
+  finish(pushed, 0.0);
 }
 
 /// Publishes a change at its step, also during a pause.

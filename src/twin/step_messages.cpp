@@ -40,7 +40,7 @@ StepMessages::StepMessages(const BuiltScene& scene, std::vector<std::size_t> sys
     }
     controller_names_.push_back(controller.name);
   }
-  told_.resize(systems_.size() + tunable_.size());
+  published_.resize(systems_.size() + tunable_.size());
   for (std::size_t i = 0; i < built_.size(); ++i) {
     if (built_[i]->drive < turned_by_.size()) {
       turned_by_[built_[i]->drive] = i;

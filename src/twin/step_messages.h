@@ -56,11 +56,12 @@ class StepMessages {
   void tell(const Observer& observer, bool all, Sink&& sink) {
     for (std::size_t i = 0; i < systems_.size(); ++i) {
       tellParameters(observer.instant(), observer.generation(systems_[i]),
-                     observer.parameters(systems_[i]), told_[i], sink);
+                     observer.parameters(systems_[i]), published_[i], sink);
     }
     for (std::size_t i = 0; i < tunable_.size(); ++i) {
       tellParameters(observer.instant(), observer.controllerGeneration(tunable_[i]),
-                     observer.controllerParameters(tunable_[i]), told_[systems_.size() + i], sink);
+                     observer.controllerParameters(tunable_[i]), published_[systems_.size() + i],
+                     sink);
     }
     if (!all) {
       return;
@@ -81,9 +82,9 @@ class StepMessages {
   /// The last published parameters as sink.again(change), for late subscribers.
   template <class Sink>
   void tellAgain(Sink&& sink) const {
-    for (const Published& told : told_) {
-      if (!told.parameters.system.empty()) {
-        sink.again(told.parameters);
+    for (const Published& published : published_) {
+      if (!published.parameters.system.empty()) {
+        sink.again(published.parameters);
       }
     }
   }
@@ -140,20 +141,20 @@ class StepMessages {
 
   template <class Sink>
   static void tellParameters(const state::Instant& at, std::int64_t generation,
-                             const state::ParameterChange& now, Published& told, Sink& sink) {
-    if (generation != told.generation) {
-      told.generation = generation;
+                             const state::ParameterChange& now, Published& published, Sink& sink) {
+    if (generation != published.generation) {
+      published.generation = generation;
       // A system prepared for other speeds is a new generation with the same parameters.
-      if (told.parameters.system.empty() || now.values != told.parameters.values) {
-        told.parameters = now;
-        told.parameters.at = at;
-        told.time = at.time;
-        sink.change(told.parameters);
+      if (published.parameters.system.empty() || now.values != published.parameters.values) {
+        published.parameters = now;
+        published.parameters.at = at;
+        published.time = at.time;
+        sink.change(published.parameters);
       }
     }
-    if (std::fabs(at.time - told.time) >= kAgain) {
-      told.time = at.time;
-      sink.again(told.parameters);
+    if (std::fabs(at.time - published.time) >= kAgain) {
+      published.time = at.time;
+      sink.again(published.parameters);
     }
   }
 
@@ -165,7 +166,7 @@ class StepMessages {
   std::vector<std::string> controller_names_;  // of all of the scene
   std::vector<std::size_t> controllers_;       // those that measure or act on systems_
   std::vector<std::size_t> tunable_;           // of these, those with parameters
-  std::vector<Published> told_;                // of systems_, then of tunable_
+  std::vector<Published> published_;           // of systems_, then of tunable_
 };
 
 }  // namespace whirl_twin

@@ -43,8 +43,8 @@ TEST(LowestRoots, AreThoseOfTheDenseSolutionAndNoneThatGrowsIsAmongTheOmitted) {
     EXPECT_EQ(lowest->roots.size() + lowest->omitted, all.size());
     const auto grows = [](const Complex& s) { return s.real() > 1.0e-12 * std::abs(s); };
     const auto truly = std::count_if(all.begin(), all.end(), grows);
-    const auto told = std::count_if(lowest->roots.begin(), lowest->roots.end(), grows);
-    EXPECT_TRUE(told == truly || (told < truly && !lowest->omitted_are_sure)) << "seed " << seed;
+    const auto found = std::count_if(lowest->roots.begin(), lowest->roots.end(), grows);
+    EXPECT_TRUE(found == truly || (found < truly && !lowest->omitted_are_sure)) << "seed " << seed;
     if (const auto radius = unstableRootBound(l)) {
       ++proved;
       for (const Complex& s : all) {

@@ -97,7 +97,7 @@ TEST(RouthTable, HasTheFirstColumnOfTheTest) {
 }
 
 TEST(SymbolicPolynomial, IsReadAsItIsWritten) {
-  for (const auto& [typed, told] :
+  for (const auto& [typed, printed] :
        std::vector<std::pair<std::string, std::string>>{{"K", "K"},
                                                         {"-K", "-K"},
                                                         {"2K", "2 K"},
@@ -107,7 +107,7 @@ TEST(SymbolicPolynomial, IsReadAsItIsWritten) {
                                                         {"0.5 K^2 - 1/3", "1/2 K^2 - 1/3"},
                                                         {"2e-1K", "1/5 K"},
                                                         {"K - K", "0"}}) {
-    EXPECT_EQ(text(parseSymbolic(typed, "K"), "K"), told) << typed;
+    EXPECT_EQ(text(parseSymbolic(typed, "K"), "K"), printed) << typed;
   }
   for (const char* wrong :
        {"", "L", "1/K", "1/0", "K^", "K^99", "2 3", "(K", "K)", "1..2", "nan"}) {

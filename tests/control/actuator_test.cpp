@@ -22,9 +22,9 @@ TEST(Actuator, WithinItsLimitGivesWhatItIsToldToTheLastBit) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> decades(-9.0, 0.5), sign(-1.0, 1.0);
   for (int i = 0; i < 100000; ++i) {
-    const double told = std::copysign(std::pow(10.0, decades(random)), sign(random));
-    EXPECT_TRUE(actuator.take(told)) << told;
-    EXPECT_EQ(actuator.value(), told);
+    const double command = std::copysign(std::pow(10.0, decades(random)), sign(random));
+    EXPECT_TRUE(actuator.take(command)) << command;
+    EXPECT_EQ(actuator.value(), command);
   }
 }
 

@@ -154,11 +154,11 @@ class TurningProbe {
       : law_(made("state_feedback", {{"notch_rate", 1.0}, {"notch_hold", hold}},
                   matrices({{"gain", -MatrixXd::Identity(2, 2)}}), planOf(100.0, 2))) {}
 
-  double next(double speed, double told) {
+  double next(double speed, double target) {
     angle_ += 0.01 * speed;
     const double y[] = {std::cos(angle_), std::sin(angle_)};
     double u[2];
-    law_->update({y, 0, 0, shaftAngle(angle_), told}, u);
+    law_->update({y, 0, 0, shaftAngle(angle_), target}, u);
     return std::hypot(u[0], u[1]);
   }
   double next(double speed) { return next(speed, speed); }

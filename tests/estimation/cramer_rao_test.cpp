@@ -132,7 +132,7 @@ TEST(CramerRao, IsReachedByTheFilterWithinATenth) {
   const auto runs = static_cast<int>(runOf(60, 1000));
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
-  Eigen::Vector4d squares = Eigen::Vector4d::Zero(), told = Eigen::Vector4d::Zero();
+  Eigen::Vector4d squares = Eigen::Vector4d::Zero(), reported = Eigen::Vector4d::Zero();
   int held = 0;
   for (int run = 0; run < runs; ++run) {
     const double stiffness = kStiffness * std::exp(0.01 * normal(random));
@@ -154,14 +154,14 @@ TEST(CramerRao, IsReachedByTheFilterWithinATenth) {
                                     filter.parameterDeviation(1) / filter.parameter(1),
                                     std::sqrt(of_unbalance(0, 0)), std::sqrt(of_unbalance(1, 1)));
     squares += error.cwiseQuotient(least).cwiseAbs2() / runs;
-    told += deviation.cwiseQuotient(least) / runs;
+    reported += deviation.cwiseQuotient(least) / runs;
     held += static_cast<int>((error.array().abs() < 1.96 * deviation.array()).count());
   }
   for (int i = 0; i < 4; ++i) {
     const char* const names[] = {"stiffness", "damping", "unbalance along", "unbalance across"};
     fmt::print("[ MEASURED ] {}: bound {:.3g}, told {:.3f}, scatter {:.3f} of it\n", names[i],
-               least[i], told[i], std::sqrt(squares[i]));
-    EXPECT_NEAR(told[i], 1.0, 0.1) << names[i];
+               least[i], reported[i], std::sqrt(squares[i]));
+    EXPECT_NEAR(reported[i], 1.0, 0.1) << names[i];
     // The scatter of so many runs is known to 1/sqrt(2 runs).
     EXPECT_NEAR(std::sqrt(squares[i]), 1.0, std::max(0.1, 3.0 / std::sqrt(2.0 * runs))) << names[i];
   }

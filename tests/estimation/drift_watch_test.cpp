@@ -149,8 +149,8 @@ TEST(CusumDetector, WhatIsKnownBetterLaterIsNoDriftAndANewReference) {
   double found = std::numeric_limits<double>::infinity();
   for (std::int64_t k = 0; k < 15000; ++k) {
     const double time = 0.1 * static_cast<double>(k);
-    const double told = good.next(time < 1200.0 ? 1.0 : 0.95);
-    const double value = time < 600.0 ? 1.08 : told;
+    const double measured = good.next(time < 1200.0 ? 1.0 : 0.95);
+    const double value = time < 600.0 ? 1.08 : measured;
     const double deviation = time < 600.0 ? 0.1 : 0.005;
     if (watch.take(time, &value, &deviation) && watch.drift().parameter >= 0) {
       found = std::fmin(found, time);

@@ -60,7 +60,7 @@ class Twinned {
       : twin_(build(readEstimatorScene(YAML::Load(scene), "a test"))),
         follower(twin_, std::make_shared<SystemGenerations>(twin_), settings, 10, listener()) {}
 
-  const state::FollowState& last() const { return told.back(); }
+  const state::FollowState& last() const { return published.back(); }
   double x() const { return whirl_[whirl_.size() - 2]; }
   double y() const { return whirl_.back(); }
   /// Of all records, one after another.
@@ -81,14 +81,14 @@ class Twinned {
               angle.push_back(RecordLayout::shaft(record, 0).angle().total());
               speed = RecordLayout::shaft(record, 0).speed();
             },
-            [this](const state::FollowState& state) { told.push_back(state); }};
+            [this](const state::FollowState& state) { published.push_back(state); }};
   }
 
   Twin twin_;
   std::vector<double> whirl_;
 
  public:
-  std::vector<state::FollowState> told;
+  std::vector<state::FollowState> published;
   StateEstimator follower;
 };
 

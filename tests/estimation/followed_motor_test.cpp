@@ -54,13 +54,13 @@ TEST(FollowedMotor, IsFollowedByItsKeyphasor) {
     fastest = std::max(fastest, twin.speed);
   }
   EXPECT_GT(fastest, 300.0) << "it has passed";
-  ASSERT_FALSE(twin.told.empty());
-  const state::FollowState& told = twin.last();
+  ASSERT_FALSE(twin.published.empty());
+  const state::FollowState& published = twin.last();
   EXPECT_EQ(twin.follower.restarts(), 0);
-  EXPECT_LT(told.refused, told.used / 100);
-  EXPECT_NEAR(told.value[0], 2.0e5, 0.005 * 2.0e5);
-  EXPECT_NEAR(told.value[1], 40.0, 0.2 * 40.0);
-  EXPECT_LT(told.mismatch, told.mismatch_limit);
+  EXPECT_LT(published.refused, published.used / 100);
+  EXPECT_NEAR(published.value[0], 2.0e5, 0.005 * 2.0e5);
+  EXPECT_NEAR(published.value[1], 40.0, 0.2 * 40.0);
+  EXPECT_LT(published.mismatch, published.mismatch_limit);
 }
 
 /// Held at its critical speed, a whirl of 4 mm is expected to be seen as far off as the shaft's
@@ -82,7 +82,7 @@ TEST(FollowedMotor, CapturedByItsCriticalSpeedHasTheNoiseOfItsProbes) {
     widest = std::max(widest, std::hypot(machine.x(), machine.y()));
   }
   EXPECT_GT(widest, 3.0e-3) << "captured";
-  ASSERT_FALSE(twin.told.empty());
+  ASSERT_FALSE(twin.published.empty());
   EXPECT_GT(twin.last().mismatch, twin.last().mismatch_least);
   EXPECT_LT(twin.last().mismatch, twin.last().mismatch_limit);
 }

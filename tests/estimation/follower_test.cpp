@@ -93,7 +93,7 @@ TEST(StateEstimator, TellsOfAShaftThatSoftens) {
   const auto stiffness = [](double t) {
     return 7200.0 * (1.0 - 0.05 * std::clamp((t - 180.0) / 60.0, 0.0, 1.0));
   };
-  double told = kNaN;
+  double published = kNaN;
   while (machine.time() < 260.0) {
     for (const state::Measurement& m : machine.step()) {
       twin.follower.take(m);
@@ -101,13 +101,13 @@ TEST(StateEstimator, TellsOfAShaftThatSoftens) {
     if (std::llround(machine.time() * 1000.0) % 200 == 0 && machine.time() > 180.0) {
       machine.setStiffness(stiffness(machine.time()));
     }
-    if (std::isnan(told) && !twin.told.empty() && !twin.last().drift_parameter.empty()) {
-      told = machine.time();
+    if (std::isnan(published) && !twin.published.empty() && !twin.last().drift_parameter.empty()) {
+      published = machine.time();
     }
   }
   const double passed = 180.0 + 0.02 / 0.05 * 60.0;
-  EXPECT_GT(told, 180.0);
-  EXPECT_LT(told, passed + 10.0);
+  EXPECT_GT(published, 180.0);
+  EXPECT_LT(published, passed + 10.0);
   EXPECT_EQ(twin.last().drift_parameter, "stiffness");
   EXPECT_NEAR(twin.last().drift_from, 7200.0, 0.005 * 7200.0);
   EXPECT_NEAR(twin.last().value[0], stiffness(260.0), 0.005 * 7200.0);
@@ -179,7 +179,7 @@ TEST(StateEstimator, SurvivesWhatSensorsDo) {
         twin.follower.take(m);
       }
     }
-    if (!twin.told.empty()) {
+    if (!twin.published.empty()) {
       const auto status = [&](std::size_t c) {
         return static_cast<state::ChannelStatus>(twin.last().channel_status[c]);
       };
@@ -419,18 +419,19 @@ TEST(StateEstimator, TakesWhatActsOnAnInputFromItsSensor) {
   bool silent = false;
   double largest = 0.0;
   followDrivenArm(driven, true, 60, [&](double t) {
-    if (driven.told.empty()) {
+    if (driven.published.empty()) {
       return;
     }
-    const state::FollowState& told = driven.last();
-    ASSERT_EQ(told.channel, (std::vector<std::string>{"encoder/theta", "motor/torque"}));
+    const state::FollowState& published = driven.last();
+    ASSERT_EQ(published.channel, (std::vector<std::string>{"encoder/theta", "motor/torque"}));
     if (t > 4.0 && t < 12.0) {
       EXPECT_EQ(driven.follower.restarts(), 0) << t;
-      largest = std::max(largest, told.mismatch);
-      EXPECT_EQ(told.channel_status[1], static_cast<int>(state::ChannelStatus::kUsed)) << t;
+      largest = std::max(largest, published.mismatch);
+      EXPECT_EQ(published.channel_status[1], static_cast<int>(state::ChannelStatus::kUsed)) << t;
     }
-    silent = silent || (t > 13.0 && t < 14.0 &&
-                        told.channel_status[1] == static_cast<int>(state::ChannelStatus::kSilent));
+    silent =
+        silent || (t > 13.0 && t < 14.0 &&
+                   published.channel_status[1] == static_cast<int>(state::ChannelStatus::kSilent));
   });
   EXPECT_LT(largest, driven.last().mismatch_limit);
   EXPECT_LT(apart(driven, kDrivenArm, 4.0, 12.0), 5.0e-3);
@@ -500,15 +501,15 @@ sensors:
     for (const state::Measurement& m : machine.step()) {
       twin.follower.take(m);
     }
-    for (; seen < twin.told.size(); ++seen) {
-      const state::FollowState& told = twin.told[seen];
-      ASSERT_EQ(told.bearing, (std::vector<std::string>{"bearings[0]", "bearings[1]"}));
-      if (told.at.time > 4.0) {
-        x += told.force_x[0] + told.force_x[1];
-        y0 += told.force_y[0];
-        y1 += told.force_y[1];
+    for (; seen < twin.published.size(); ++seen) {
+      const state::FollowState& published = twin.published[seen];
+      ASSERT_EQ(published.bearing, (std::vector<std::string>{"bearings[0]", "bearings[1]"}));
+      if (published.at.time > 4.0) {
+        x += published.force_x[0] + published.force_x[1];
+        y0 += published.force_y[0];
+        y1 += published.force_y[1];
         ++counted;
-        EXPECT_LT(told.force_deviation[0], 2.0);
+        EXPECT_LT(published.force_deviation[0], 2.0);
       }
     }
   }
@@ -596,8 +597,8 @@ TEST(StateEstimator, BeginsAnewWhenItsEstimateRunsAway) {
     }
   }
   EXPECT_GT(twin.follower.restarts(), 0);
-  for (const state::FollowState& told : twin.told) {
-    EXPECT_TRUE(std::isfinite(told.value[0]) && std::isfinite(told.deviation[0]));
+  for (const state::FollowState& published : twin.published) {
+    EXPECT_TRUE(std::isfinite(published.value[0]) && std::isfinite(published.deviation[0]));
   }
   for (const double whirl : twin.whirl()) {
     ASSERT_TRUE(std::isfinite(whirl));

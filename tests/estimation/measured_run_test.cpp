@@ -66,9 +66,11 @@ TEST(MeasuredRun, LeavesRepeatedInstantsOut) {
 }
 
 TEST(MeasuredRun, LeavesOutARowThatIsCut) {  // 9 may be the beginning of 9.75
-  const MeasuredRun run = read("t,a\n0,1\n1,2.5\n2,4\n3,5\n4,7\n5,8.25\n6,9");
-  EXPECT_EQ(run.time.back(), 5.0);
-  EXPECT_THAT(run.remarks.back(), HasSubstr("ends within a line"));
+  for (const char* last : {"6,9", "6,9e", "6,", "6"}) {
+    const MeasuredRun run = read(std::string("t,a\n0,1\n1,2.5\n2,4\n3,5\n4,7\n5,8.25\n") + last);
+    EXPECT_EQ(run.time.back(), 5.0) << last;
+    EXPECT_THAT(run.remarks.back(), HasSubstr("ends within a line")) << last;
+  }
 }
 
 TEST(MeasuredRun, NamesAGap) {

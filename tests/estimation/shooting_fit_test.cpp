@@ -140,7 +140,7 @@ TEST(ShootingFit, FindsADoublePendulum) {
     EXPECT_NEAR(found(fit, "damping1"), 4.0e-5, 2e-8);
     EXPECT_NEAR(found(fit, "coulomb1"), 3.0e-4, 1e-7);
     EXPECT_NEAR(found(fit, "coulomb2"), 1.0e-4, 1e-7);
-    EXPECT_TRUE(fit.information.untold.empty());
+    EXPECT_TRUE(fit.information.unidentifiable.empty());
     for (const FittedRun& run : fit.runs) {
       EXPECT_LT(run.rms[0], 1e-6);
       EXPECT_LT(run.rms[1], 1e-6);
@@ -222,12 +222,12 @@ TEST(ShootingFit, SaysWhatASwingDoesNotTell) {
   const FitStudy study =
       studyOf(pendulum(1.0, 0.03, 0.02, 0.0), {run}, {"mass", "inertia", "damping"});
   const ShootingFit fit = fitted(study);
-  ASSERT_EQ(fit.information.untold.size(), 1u);
+  ASSERT_EQ(fit.information.unidentifiable.size(), 1u);
   // All change by the same factor.
   const Eigen::Vector3d start(1.0, 0.03, 0.02);
   const Eigen::Vector3d sizes = fit.theta.cwiseMax(start);
   const Eigen::Vector3d changes =
-      fit.information.untold.front().parts.cwiseProduct(sizes).cwiseQuotient(fit.theta);
+      fit.information.unidentifiable.front().parts.cwiseProduct(sizes).cwiseQuotient(fit.theta);
   EXPECT_NEAR(changes[1] / changes[0], 1.0, 0.02);
   EXPECT_NEAR(changes[2] / changes[0], 1.0, 0.02);
   for (Eigen::Index i = 0; i < 3; ++i) {

@@ -104,14 +104,14 @@ TEST(UnbalanceFit, FindsTheUnbalanceOfARunUpThroughTheCriticalSpeed) {
     fit.take(
         reading(static_cast<std::int64_t>(i), t, angle, run.speed(t), shown(z[i], angle, 0.0)));
   }
-  const UnbalanceEstimate told = fit.told();
-  ASSERT_TRUE(told.planes[0].told);
-  EXPECT_NEAR(std::abs(told.planes[0].value), 2.0e-4, 1e-9 * 2.0e-4);
-  EXPECT_NEAR(std::arg(told.planes[0].value), 0.9, 1e-9);
-  EXPECT_LT(std::abs(told.run_outs[0].value - std::polar(12e-6, 0.4)), 1e-13);
-  EXPECT_LT(std::abs(told.run_outs[1].value - std::polar(8e-6, -1.0)), 1e-13);
-  EXPECT_TRUE(told.untold.empty());
-  EXPECT_LT(told.noise, 1e-12);
+  const UnbalanceEstimate result = fit.estimate();
+  ASSERT_TRUE(result.planes[0].identifiable);
+  EXPECT_NEAR(std::abs(result.planes[0].value), 2.0e-4, 1e-9 * 2.0e-4);
+  EXPECT_NEAR(std::arg(result.planes[0].value), 0.9, 1e-9);
+  EXPECT_LT(std::abs(result.run_outs[0].value - std::polar(12e-6, 0.4)), 1e-13);
+  EXPECT_LT(std::abs(result.run_outs[1].value - std::polar(8e-6, -1.0)), 1e-13);
+  EXPECT_TRUE(result.unidentifiable.empty());
+  EXPECT_LT(result.noise, 1e-12);
 }
 
 // Two stamps that are one but for rounding are not the distance of samples.
@@ -130,9 +130,9 @@ TEST(UnbalanceFit, IsNotMisledByTwoStampsAtOneInstant) {
       fit.take(reading(index, t + 1.0e-14, angle, run.speed(t), shown(z[i], angle, 0.0)));
     }
   }
-  const UnbalanceEstimate told = fit.told();
-  ASSERT_TRUE(told.planes[0].told);
-  EXPECT_LT(std::abs(told.planes[0].value - run.unbalance), 1e-6 * 2.0e-4);
+  const UnbalanceEstimate result = fit.estimate();
+  ASSERT_TRUE(result.planes[0].identifiable);
+  EXPECT_LT(std::abs(result.planes[0].value - run.unbalance), 1e-6 * 2.0e-4);
 }
 
 // 3 um of noise, and ambient vibration that is not white: 2 % and 2 degrees, deviations that hold.
@@ -158,13 +158,13 @@ TEST(UnbalanceFit, IsWithinTwoPercentAndTwoDegreesAfterTenSecondsOfANoisyRunUp) 
       fit.take(
           reading(static_cast<std::int64_t>(i), t, angle, run.speed(t), shown(z[i], angle, noise)));
     }
-    const UnbalanceEstimate told = fit.told();
-    const PhasorEstimate& disc = told.planes[0];
-    ASSERT_TRUE(disc.told);
+    const UnbalanceEstimate result = fit.estimate();
+    const PhasorEstimate& disc = result.planes[0];
+    ASSERT_TRUE(disc.identifiable);
     EXPECT_NEAR(std::abs(disc.value), 2.0e-4, 0.02 * 2.0e-4);
     EXPECT_NEAR(std::arg(disc.value), 0.9, 2.0 * kRadian);
     EXPECT_LT(disc.deviation, 0.01 * 2.0e-4);
-    EXPECT_NEAR(told.beyond_noise, std::hypot(1.0, 2.0 / 3.0), 0.1);
+    EXPECT_NEAR(result.beyond_noise, std::hypot(1.0, 2.0 / 3.0), 0.1);
     inside += std::fabs(disc.value.real() - run.unbalance.real()) < 2.0 * disc.deviation;
     inside += std::fabs(disc.value.imag() - run.unbalance.imag()) < 2.0 * disc.deviation;
   }
@@ -195,26 +195,26 @@ UnbalanceEstimate atSteadySpeeds(const std::vector<double>& speeds, bool run_out
     }
     begin += 10.0;
   }
-  return fit.told();
+  return fit.estimate();
 }
 
 TEST(UnbalanceFit, DoesNotTellRunOutFromUnbalanceAtOneSpeedAndSaysSo) {
   const UnbalanceEstimate one = atSteadySpeeds({45.0}, false);
-  EXPECT_FALSE(one.planes[0].told);
-  EXPECT_FALSE(one.run_outs[0].told);
-  ASSERT_EQ(one.untold.size(), 2u);  // two real directions: one of each part
-  for (const UnidentifiableCombination& untold : one.untold) {
+  EXPECT_FALSE(one.planes[0].identifiable);
+  EXPECT_FALSE(one.run_outs[0].identifiable);
+  ASSERT_EQ(one.unidentifiable.size(), 2u);  // two real directions: one of each part
+  for (const UnidentifiableCombination& combination : one.unidentifiable) {
     // In them the run-out is the response of the disc to the unbalance, with opposite sign.
-    const Complex x = untold.planes[0] * 2025.0 / Complex(7200.0 - 4050.0, 540.0);
-    EXPECT_LT(std::abs(untold.run_outs[0] + x), 1e-6 * std::abs(x));
-    EXPECT_LT(std::abs(untold.run_outs[1] - Complex(0.0, 1.0) * x), 1e-6 * std::abs(x));
+    const Complex x = combination.planes[0] * 2025.0 / Complex(7200.0 - 4050.0, 540.0);
+    EXPECT_LT(std::abs(combination.run_outs[0] + x), 1e-6 * std::abs(x));
+    EXPECT_LT(std::abs(combination.run_outs[1] - Complex(0.0, 1.0) * x), 1e-6 * std::abs(x));
   }
   const UnbalanceEstimate two = atSteadySpeeds({45.0, 75.0}, false);
-  EXPECT_TRUE(two.untold.empty());
-  ASSERT_TRUE(two.planes[0].told);
+  EXPECT_TRUE(two.unidentifiable.empty());
+  ASSERT_TRUE(two.planes[0].identifiable);
   EXPECT_LT(std::abs(two.planes[0].value - std::polar(2.0e-4, 0.9)), 1e-8);
   const UnbalanceEstimate known = atSteadySpeeds({45.0}, true);
-  EXPECT_TRUE(known.untold.empty());
+  EXPECT_TRUE(known.unidentifiable.empty());
   EXPECT_LT(std::abs(known.planes[0].value - std::polar(2.0e-4, 0.9)), 1e-8);
 }
 

@@ -51,21 +51,21 @@ TEST(FollowerFalseAlarms, AreFewerThanOneADay) {
       for (const state::Measurement& m : machine.step()) {
         twin.follower.take(m);
       }
-      for (; seen < twin.told.size(); ++seen) {
-        const state::FollowState& told = twin.told[seen];
-        const bool drifts_now = !told.drift_parameter.empty();
+      for (; seen < twin.published.size(); ++seen) {
+        const state::FollowState& published = twin.published[seen];
+        const bool drifts_now = !published.drift_parameter.empty();
         drifts += drifts_now && !drifting ? 1 : 0;
         drifting = drifts_now;
-        if (told.mismatch != judged) {
-          judged = told.mismatch;
-          mismatches += told.mismatch > told.mismatch_limit ||
-                                told.mismatch < told.mismatch_least ||
-                                std::fabs(told.whiteness) > told.whiteness_limit
+        if (published.mismatch != judged) {
+          judged = published.mismatch;
+          mismatches += published.mismatch > published.mismatch_limit ||
+                                published.mismatch < published.mismatch_least ||
+                                std::fabs(published.whiteness) > published.whiteness_limit
                             ? 1
                             : 0;
         }
       }
-      twin.told.clear();
+      twin.published.clear();
       seen = 0;
     }
     if ((hour + 1) % kTold == 0) {

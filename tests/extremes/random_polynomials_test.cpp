@@ -101,11 +101,11 @@ TEST(RandomPolynomials, RouthCountsTheRootsThatAreKnown) {
     ++met[verdictOf(known)];
     try {
       ExactBudget budget(kBudget);
-      const RouthResult told = routh(known.coefficients, budget);
-      const bool right = told.right == known.right && told.imaginary == known.imaginary &&
-                         told.left == known.left &&
-                         told.largest_imaginary_multiplicity == known.multiplicity &&
-                         told.verdict == verdictOf(known);
+      const RouthResult result = routh(known.coefficients, budget);
+      const bool right = result.right == known.right && result.imaginary == known.imaginary &&
+                         result.left == known.left &&
+                         result.largest_imaginary_multiplicity == known.multiplicity &&
+                         result.verdict == verdictOf(known);
       wrong += right ? 0 : 1;
     } catch (const ExactBudgetSpent&) {
       ++uncertain;
@@ -172,12 +172,13 @@ TEST(RandomPolynomials, TheVerdictOnASystemIsThatOfTheModesItWasMadeOf) {
   for (int i = 0; i < count; ++i) {
     const KnownSystem known = systemOf(1 + i % 8, random);
     ++met[known.verdict];
-    const Stability told = stability(known.matrices);
-    if (told.routh.verdict == Verdict::kUncertain) {
+    const Stability result = stability(known.matrices);
+    if (result.routh.verdict == Verdict::kUncertain) {
       ++uncertain;
     } else {
-      const bool right = told.routh.verdict == known.verdict && told.routh.right == known.right &&
-                         told.routh.imaginary == known.imaginary && told.routh.left == known.left;
+      const bool right =
+          result.routh.verdict == known.verdict && result.routh.right == known.right &&
+          result.routh.imaginary == known.imaginary && result.routh.left == known.left;
       wrong += right ? 0 : 1;
     }
   }

@@ -35,50 +35,50 @@ struct Published {
 };
 
 TEST(AmplitudeAlarm, WarnsAboveAlertIsDangerAboveDangerAndClearsBelowBoth) {
-  Published told(levels(1.0e-3, 2.0e-3));
-  told.tell(0.99e-3, 1.0);
-  EXPECT_EQ(told.alert(), nullptr);
-  told.tell(1.01e-3, 0.02);
-  ASSERT_NE(told.alert(), nullptr);
-  EXPECT_EQ(told.alert()->severity, state::Severity::kWarning);
-  EXPECT_EQ(told.alert()->amplitude_limit, 1.0e-3);
-  const auto id = told.alert()->id;
-  told.tell(2.01e-3, 0.02);
-  EXPECT_EQ(told.alert()->severity, state::Severity::kDanger);
-  EXPECT_EQ(told.alert()->amplitude, 2.01e-3);
-  EXPECT_EQ(told.alert()->amplitude_limit, 2.0e-3);
-  EXPECT_EQ(told.alert()->id, id);
-  told.tell(0.99e-3, 3.0);
-  EXPECT_NE(told.alert(), nullptr) << "within the hysteresis of 2 %";
-  told.tell(kNan, 3.0);
-  EXPECT_NE(told.alert(), nullptr) << "what cannot be judged clears nothing";
-  told.tell(0.97e-3, 0.9);
-  EXPECT_NE(told.alert(), nullptr);
-  told.tell(0.97e-3, 0.2);
-  EXPECT_EQ(told.alert(), nullptr);
+  Published published(levels(1.0e-3, 2.0e-3));
+  published.tell(0.99e-3, 1.0);
+  EXPECT_EQ(published.alert(), nullptr);
+  published.tell(1.01e-3, 0.02);
+  ASSERT_NE(published.alert(), nullptr);
+  EXPECT_EQ(published.alert()->severity, state::Severity::kWarning);
+  EXPECT_EQ(published.alert()->amplitude_limit, 1.0e-3);
+  const auto id = published.alert()->id;
+  published.tell(2.01e-3, 0.02);
+  EXPECT_EQ(published.alert()->severity, state::Severity::kDanger);
+  EXPECT_EQ(published.alert()->amplitude, 2.01e-3);
+  EXPECT_EQ(published.alert()->amplitude_limit, 2.0e-3);
+  EXPECT_EQ(published.alert()->id, id);
+  published.tell(0.99e-3, 3.0);
+  EXPECT_NE(published.alert(), nullptr) << "within the hysteresis of 2 %";
+  published.tell(kNan, 3.0);
+  EXPECT_NE(published.alert(), nullptr) << "what cannot be judged clears nothing";
+  published.tell(0.97e-3, 0.9);
+  EXPECT_NE(published.alert(), nullptr);
+  published.tell(0.97e-3, 0.2);
+  EXPECT_EQ(published.alert(), nullptr);
 }
 
 TEST(AmplitudeAlarm, HasNoLevelsIfNothingIsSaid) {
-  Published told((AlarmSettings()));
-  told.tell(1.0, 2.0);
-  EXPECT_EQ(told.alert(), nullptr);
+  Published published((AlarmSettings()));
+  published.tell(1.0, 2.0);
+  EXPECT_EQ(published.alert(), nullptr);
 }
 
 TEST(AmplitudeAlarm, WaitsForItsSetDelayWithoutABreak) {
   AlarmSettings settings = levels(1.0e-3, 2.0e-3);
   settings.delays[alert_type::kWhirlAmplitude] = {0.5, 2.0};
-  Published told(settings);
+  Published published(settings);
   for (int i = 0; i < 5; ++i) {
-    told.tell(3.0e-3, 0.4);
-    told.tell(0.5e-3, 0.05);
+    published.tell(3.0e-3, 0.4);
+    published.tell(0.5e-3, 0.05);
   }
-  EXPECT_EQ(told.alert(), nullptr);
-  told.tell(3.0e-3, 0.55);
-  EXPECT_NE(told.alert(), nullptr);
-  told.tell(0.5e-3, 1.9);
-  EXPECT_NE(told.alert(), nullptr);
-  told.tell(0.5e-3, 0.2);
-  EXPECT_EQ(told.alert(), nullptr);
+  EXPECT_EQ(published.alert(), nullptr);
+  published.tell(3.0e-3, 0.55);
+  EXPECT_NE(published.alert(), nullptr);
+  published.tell(0.5e-3, 1.9);
+  EXPECT_NE(published.alert(), nullptr);
+  published.tell(0.5e-3, 0.2);
+  EXPECT_EQ(published.alert(), nullptr);
 }
 
 TEST(AmplitudeAlarm, LevelsAreLinearBetweenSpeedsAndHeldBeyond) {
@@ -93,14 +93,14 @@ TEST(AmplitudeAlarm, LevelsAreLinearBetweenSpeedsAndHeldBeyond) {
 TEST(AmplitudeAlarm, LevelsAreMultipliedWhileTheShaftGainsSpeedAndASecondAfter) {
   AlarmSettings settings = levels(1.0e-3, 2.0e-3);
   settings.trip_multiply = 3.0;
-  Published told(settings);
-  told.tell(2.5e-3, 1.0, 100.0, 10.0);
-  EXPECT_EQ(told.alert(), nullptr) << "it starts up";
-  told.tell(2.5e-3, 0.9, 100.0, 0.0);
-  EXPECT_EQ(told.alert(), nullptr);
-  told.tell(2.5e-3, 0.2, 100.0, 0.0);
-  ASSERT_NE(told.alert(), nullptr);
-  EXPECT_EQ(told.alert()->severity, state::Severity::kDanger);
+  Published published(settings);
+  published.tell(2.5e-3, 1.0, 100.0, 10.0);
+  EXPECT_EQ(published.alert(), nullptr) << "it starts up";
+  published.tell(2.5e-3, 0.9, 100.0, 0.0);
+  EXPECT_EQ(published.alert(), nullptr);
+  published.tell(2.5e-3, 0.2, 100.0, 0.0);
+  ASSERT_NE(published.alert(), nullptr);
+  EXPECT_EQ(published.alert()->severity, state::Severity::kDanger);
 
   Published slowing(settings);
   slowing.tell(2.5e-3, 0.1, 100.0, -10.0);

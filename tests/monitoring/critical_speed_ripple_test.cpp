@@ -181,14 +181,14 @@ TEST(CriticalSpeedPassage, OneThatStopsOnItsWayIsDangerThen) {
 
 TEST(CriticalSpeedCountdown, IsToldAnewWhileItRuns) {
   WatchedRotor rotor;
-  int told = 0;
+  int published = 0;
   for (int step = 1; step <= 1900; ++step) {
     rotor.see(60.0 + 0.01 * step, 10.0, 200.0);
-    told += rotor.list.takeChanged() ? 1 : 0;
+    published += rotor.list.takeChanged() ? 1 : 0;
     ASSERT_EQ(rotor.list.active().size(), 1u);
     EXPECT_NEAR(rotor.list.active()[0].time_to_entry, 2.0 - 0.001 * step, 1.0e-9);
   }
-  EXPECT_NEAR(told, 10, 1) << "five times a second";
+  EXPECT_NEAR(published, 10, 1) << "five times a second";
   EXPECT_EQ(rotor.events.size(), 1u) << "and raised once";
 }
 

@@ -58,48 +58,48 @@ struct Published {
 };
 
 TEST(DataQuality, WhatIsNotFiniteClearsNothingAndBreaksTheClearDelay) {
-  Published told;
-  EXPECT_EQ(told.notOk(), "stale: no state received yet");
-  told.tell(2.0e-3, 0.5);
-  EXPECT_EQ(told.notOk(), "");
-  ASSERT_TRUE(told.raised());
-  told.tell(0.1e-3, 0.9);
-  told.tell(std::numeric_limits<double>::quiet_NaN(), 5.0);
-  EXPECT_TRUE(told.raised());
-  EXPECT_EQ(told.notOk(), "not finite: x");
-  told.tell(0.1e-3, 0.9);
-  EXPECT_TRUE(told.raised());
-  EXPECT_EQ(told.notOk(), "");
-  told.tell(0.1e-3, 0.2);
-  EXPECT_FALSE(told.raised());
+  Published published;
+  EXPECT_EQ(published.notOk(), "stale: no state received yet");
+  published.tell(2.0e-3, 0.5);
+  EXPECT_EQ(published.notOk(), "");
+  ASSERT_TRUE(published.raised());
+  published.tell(0.1e-3, 0.9);
+  published.tell(std::numeric_limits<double>::quiet_NaN(), 5.0);
+  EXPECT_TRUE(published.raised());
+  EXPECT_EQ(published.notOk(), "not finite: x");
+  published.tell(0.1e-3, 0.9);
+  EXPECT_TRUE(published.raised());
+  EXPECT_EQ(published.notOk(), "");
+  published.tell(0.1e-3, 0.2);
+  EXPECT_FALSE(published.raised());
 }
 
 TEST(DataQuality, BeyondItsRangeAWhirlIsNoMeasurement) {
-  Published told;
-  told.tell(0.1e-3, 0.5);
-  told.tell(9.0e-3, 2.0);
-  EXPECT_FALSE(told.raised());
-  EXPECT_EQ(told.notOk(), "out of range: whirl 9 mm 0-peak, above 5 mm");
-  told.tell(4.0e-3, 0.5);
-  EXPECT_TRUE(told.raised());
-  told.tell(9.0e-3, 5.0);
-  EXPECT_TRUE(told.raised());
+  Published published;
+  published.tell(0.1e-3, 0.5);
+  published.tell(9.0e-3, 2.0);
+  EXPECT_FALSE(published.raised());
+  EXPECT_EQ(published.notOk(), "out of range: whirl 9 mm 0-peak, above 5 mm");
+  published.tell(4.0e-3, 0.5);
+  EXPECT_TRUE(published.raised());
+  published.tell(9.0e-3, 5.0);
+  EXPECT_TRUE(published.raised());
 }
 
 TEST(DataQuality, AGapIsNoTimeWithoutTheCause) {
-  Published told;
-  told.tell(2.0e-3, 0.5);
-  told.tell(0.1e-3, 0.9);
-  for (const double end = told.time + 5.0; told.time < end; told.time += 0.1) {
-    told.monitor.tick(told.time, false);
+  Published published;
+  published.tell(2.0e-3, 0.5);
+  published.tell(0.1e-3, 0.9);
+  for (const double end = published.time + 5.0; published.time < end; published.time += 0.1) {
+    published.monitor.tick(published.time, false);
   }
-  EXPECT_TRUE(told.raised());
-  EXPECT_EQ(told.notOk().find("stale: no state for 5."), 0u) << told.notOk();
-  EXPECT_EQ(told.monitor.status(told.time, true).not_ok.at(0), "") << "it is held";
-  told.tell(0.1e-3, 0.9);
-  EXPECT_TRUE(told.raised());
-  told.tell(0.1e-3, 0.2);
-  EXPECT_FALSE(told.raised());
+  EXPECT_TRUE(published.raised());
+  EXPECT_EQ(published.notOk().find("stale: no state for 5."), 0u) << published.notOk();
+  EXPECT_EQ(published.monitor.status(published.time, true).not_ok.at(0), "") << "it is held";
+  published.tell(0.1e-3, 0.9);
+  EXPECT_TRUE(published.raised());
+  published.tell(0.1e-3, 0.2);
+  EXPECT_FALSE(published.raised());
 }
 
 double whirlX(double time) {
@@ -110,23 +110,23 @@ double whirlY(double time) {
 }
 
 TEST(StuckChannel, IsNotOkRaisesAndClearsNothingAndComesBack) {
-  Published told;
-  told.tell([](double t) { return 7.0 * whirlX(t); }, whirlY, 1.0);
-  ASSERT_TRUE(told.raised());
+  Published published;
+  published.tell([](double t) { return 7.0 * whirlX(t); }, whirlY, 1.0);
+  ASSERT_TRUE(published.raised());
   const double held = 0.3e-3;  // below the level
-  told.tell([=](double) { return held; }, whirlY, 0.2);
-  EXPECT_EQ(told.notOk(), "") << "not yet known";
-  told.tell([=](double) { return held; }, whirlY, 5.0);
-  EXPECT_EQ(told.notOk(), "stuck: x");
-  EXPECT_TRUE(told.raised());
-  told.tell(whirlX, whirlY, 0.9);
-  EXPECT_EQ(told.notOk(), "");
-  EXPECT_TRUE(told.raised()) << "its delay begins anew";
-  told.tell(whirlX, whirlY, 0.2);
-  EXPECT_FALSE(told.raised());
-  const double last = whirlX(told.time);
-  told.tell([=](double) { return last; }, [](double) { return 0.0; }, 1.0);
-  EXPECT_EQ(told.notOk(), "stuck: x, y") << "y reads nothing, x the same again and again";
+  published.tell([=](double) { return held; }, whirlY, 0.2);
+  EXPECT_EQ(published.notOk(), "") << "not yet known";
+  published.tell([=](double) { return held; }, whirlY, 5.0);
+  EXPECT_EQ(published.notOk(), "stuck: x");
+  EXPECT_TRUE(published.raised());
+  published.tell(whirlX, whirlY, 0.9);
+  EXPECT_EQ(published.notOk(), "");
+  EXPECT_TRUE(published.raised()) << "its delay begins anew";
+  published.tell(whirlX, whirlY, 0.2);
+  EXPECT_FALSE(published.raised());
+  const double last = whirlX(published.time);
+  published.tell([=](double) { return last; }, [](double) { return 0.0; }, 1.0);
+  EXPECT_EQ(published.notOk(), "stuck: x, y") << "y reads nothing, x the same again and again";
 }
 
 // Each of these stands still at last, or often, and none is stuck.
@@ -150,20 +150,20 @@ TEST(StuckChannel, IsNotWhatComesToRestOrIsCoarse) {
                  [=](double t) { return coarse(4.0 * std::exp(-2.0 * t) * whirlX(t)); }},
            Trial{"moves in jumps", [](double t) { return 1.0e-4 * std::floor(2.0 * t); }},
        }) {
-    Published told;
+    Published published;
     for (int i = 0; i < 400; ++i) {
-      told.tell(trial.x, whirlY, 0.05);
-      ASSERT_EQ(told.notOk(), "") << trial.what << ", t = " << told.time;
+      published.tell(trial.x, whirlY, 0.05);
+      ASSERT_EQ(published.notOk(), "") << trial.what << ", t = " << published.time;
     }
   }
 }
 
 TEST(StuckChannel, IsNotWhatStandsStillSinceAGapOrAReset) {
-  Published told;
-  told.tell(whirlX, whirlY, 1.0);
-  told.time += 0.5;  // nothing came meanwhile, and the machine has come to rest
-  told.tell(0.05e-3, 2.0);
-  EXPECT_EQ(told.notOk(), "");
+  Published published;
+  published.tell(whirlX, whirlY, 1.0);
+  published.time += 0.5;  // nothing came meanwhile, and the machine has come to rest
+  published.tell(0.05e-3, 2.0);
+  EXPECT_EQ(published.notOk(), "");
 }
 
 }  // namespace data_quality_test

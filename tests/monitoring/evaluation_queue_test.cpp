@@ -138,8 +138,8 @@ TEST(EvaluationQueue, AllSystemsHaveTheirTurnAndTheNewestStateIsJudgedLast) {
   }
 }
 
-// A rotor on its motor: what it operates about is picked from what is known, and is the same as if
-// all were found restarted.
+// A rotor on its motor: its steady motion is one of the known ones, and the same as a new search
+// finds.
 TEST(EvaluationQueue, AFreeSpinRotorIsJudgedAboutTheMotionThatAFullSearchFinds) {
   const BuiltScene scene = build(sceneOf(R"(
 name: free_rotor

@@ -67,133 +67,134 @@ bool has(const std::string& text, const std::string& part) {
 }
 
 TEST(EstimatorAlarm, IsSilentOfAMachineThatIsItsModel) {
-  Published told;
-  told.tell(60.0);
-  EXPECT_TRUE(told.alerts.active().empty());
+  Published published;
+  published.tell(60.0);
+  EXPECT_TRUE(published.alerts.active().empty());
 }
 
 TEST(EstimatorAlarm, ResidualsBeyondEitherLimitAreAMismatch) {
   for (const double mismatch : {1.2, 0.8}) {
-    Published told;
-    told.follow.mismatch = mismatch;
-    told.tell(0.1);
-    ASSERT_NE(told.find(alert_type::kModelMismatch), nullptr) << mismatch;
-    EXPECT_EQ(told.find(alert_type::kModelMismatch)->severity, state::Severity::kWarning);
-    const std::string text = told.text(alert_type::kModelMismatch);
+    Published published;
+    published.follow.mismatch = mismatch;
+    published.tell(0.1);
+    ASSERT_NE(published.find(alert_type::kModelMismatch), nullptr) << mismatch;
+    EXPECT_EQ(published.find(alert_type::kModelMismatch)->severity, state::Severity::kWarning);
+    const std::string text = published.text(alert_type::kModelMismatch);
     EXPECT_TRUE(has(text, mismatch > 1.0 ? "(NIS) 1.2, expected 1, above the limit 1.1"
                                          : "(NIS) 0.8, expected 1, below the limit 0.9"))
         << text;
     // Within the limits, but not together with the model yet.
-    told.follow.mismatch = mismatch > 1.0 ? 1.08 : 0.92;
-    told.tell(5.0);
-    EXPECT_NE(told.find(alert_type::kModelMismatch), nullptr);
-    told.follow.mismatch = 1.0;
-    told.tell(0.9);
-    EXPECT_NE(told.find(alert_type::kModelMismatch), nullptr);
-    told.tell(0.3);
-    EXPECT_EQ(told.find(alert_type::kModelMismatch), nullptr);
+    published.follow.mismatch = mismatch > 1.0 ? 1.08 : 0.92;
+    published.tell(5.0);
+    EXPECT_NE(published.find(alert_type::kModelMismatch), nullptr);
+    published.follow.mismatch = 1.0;
+    published.tell(0.9);
+    EXPECT_NE(published.find(alert_type::kModelMismatch), nullptr);
+    published.tell(0.3);
+    EXPECT_EQ(published.find(alert_type::kModelMismatch), nullptr);
   }
 }
 
 TEST(EstimatorAlarm, ResidualsThatLastAreAMismatchOfEitherSign) {
   for (const double whiteness : {0.3, -0.3}) {
-    Published told;
-    told.follow.whiteness = whiteness;
-    told.tell(0.1);
-    EXPECT_TRUE(has(told.text(alert_type::kModelMismatch), "autocorrelation of the innovations"));
+    Published published;
+    published.follow.whiteness = whiteness;
+    published.tell(0.1);
+    EXPECT_TRUE(
+        has(published.text(alert_type::kModelMismatch), "autocorrelation of the innovations"));
   }
 }
 
 TEST(EstimatorAlarm, BeforeAWindowHasEndedThereIsNoMismatch) {
-  Published told;
-  told.follow.mismatch = 3.0;
-  told.follow.mismatch_least = told.follow.mismatch_limit = kNone;
-  told.follow.whiteness_limit = kNone;
-  told.tell(5.0);
-  EXPECT_EQ(told.find(alert_type::kModelMismatch), nullptr);
+  Published published;
+  published.follow.mismatch = 3.0;
+  published.follow.mismatch_least = published.follow.mismatch_limit = kNone;
+  published.follow.whiteness_limit = kNone;
+  published.tell(5.0);
+  EXPECT_EQ(published.find(alert_type::kModelMismatch), nullptr);
 }
 
 TEST(EstimatorAlarm, WhileTheAuditOfTheDecaySpeaksItDoesNot) {
-  Published told;
-  told.follow.mismatch = 1.2;
-  told.tell(1.0, true);
-  EXPECT_EQ(told.find(alert_type::kModelMismatch), nullptr);
-  told.tell(0.1, false);  // and continues where that has ended
-  EXPECT_NE(told.find(alert_type::kModelMismatch), nullptr);
-  told.follow.mismatch = 1.0;
-  told.tell(3.0, true);
-  EXPECT_NE(told.find(alert_type::kModelMismatch), nullptr);  // the audit's by now
+  Published published;
+  published.follow.mismatch = 1.2;
+  published.tell(1.0, true);
+  EXPECT_EQ(published.find(alert_type::kModelMismatch), nullptr);
+  published.tell(0.1, false);  // and continues where that has ended
+  EXPECT_NE(published.find(alert_type::kModelMismatch), nullptr);
+  published.follow.mismatch = 1.0;
+  published.tell(3.0, true);
+  EXPECT_NE(published.find(alert_type::kModelMismatch), nullptr);  // the audit's by now
 }
 
 TEST(EstimatorAlarm, ADriftTellsWhichFromWhereToWhereAndSinceWhen) {
-  Published told;
-  told.tell(10.0);
-  told.follow.drift_parameter = "stiffness";
-  told.follow.drift_from = 1.7e7;
-  told.follow.drift_to = 1.649e7;
-  told.follow.drift_since = 3.5;
-  told.follow.drift = 6.0;
-  told.tell(0.1);
-  const std::string text = told.text(alert_type::kDrift);
+  Published published;
+  published.tell(10.0);
+  published.follow.drift_parameter = "stiffness";
+  published.follow.drift_from = 1.7e7;
+  published.follow.drift_to = 1.649e7;
+  published.follow.drift_since = 3.5;
+  published.follow.drift = 6.0;
+  published.tell(0.1);
+  const std::string text = published.text(alert_type::kDrift);
   for (const char* part : {"stiffness", "from 1.7e+07 to 1.649e+07 N/m", "(-3 %)", "since 3.5 s"}) {
     EXPECT_TRUE(has(text, part)) << part << " in: " << text;
   }
   // Unchanged numbers publish nothing; another direction does.
-  told.alerts.takeChanged();
-  told.follow.drift_to = 1.64e7;
-  told.tell(0.1);
-  EXPECT_FALSE(told.alerts.takeChanged());
-  told.follow.drift_to = 1.75e7;
-  told.tell(0.1);
-  EXPECT_TRUE(told.alerts.takeChanged());
-  told.follow.drift_parameter.clear();
-  told.follow.drift_limit = kNone;  // a reference is being learned restarted: nothing is known
-  told.tell(5.0);
-  EXPECT_NE(told.find(alert_type::kDrift), nullptr);
-  told.follow.drift_limit = 5.0;
-  told.tell(1.2);
-  EXPECT_EQ(told.find(alert_type::kDrift), nullptr);
+  published.alerts.takeChanged();
+  published.follow.drift_to = 1.64e7;
+  published.tell(0.1);
+  EXPECT_FALSE(published.alerts.takeChanged());
+  published.follow.drift_to = 1.75e7;
+  published.tell(0.1);
+  EXPECT_TRUE(published.alerts.takeChanged());
+  published.follow.drift_parameter.clear();
+  published.follow.drift_limit = kNone;  // a new reference is being estimated: nothing is known
+  published.tell(5.0);
+  EXPECT_NE(published.find(alert_type::kDrift), nullptr);
+  published.follow.drift_limit = 5.0;
+  published.tell(1.2);
+  EXPECT_EQ(published.find(alert_type::kDrift), nullptr);
 }
 
 TEST(EstimatorAlarm, AChannelThatIsNotUsedForLongIsNamed) {
   for (const auto& [status, how] : {std::pair(1, "has no new samples"), std::pair(2, "is rejected"),
                                     std::pair(3, "is invalid")}) {
-    Published told;
-    told.follow.channel_status[1] = static_cast<std::uint8_t>(status);
-    told.tell(1.9);
-    EXPECT_EQ(told.find(alert_type::kSensor), nullptr);
-    told.tell(0.3);
-    const std::string text = told.text(alert_type::kSensor);
+    Published published;
+    published.follow.channel_status[1] = static_cast<std::uint8_t>(status);
+    published.tell(1.9);
+    EXPECT_EQ(published.find(alert_type::kSensor), nullptr);
+    published.tell(0.3);
+    const std::string text = published.text(alert_type::kSensor);
     EXPECT_TRUE(has(text, std::string("probes/probe_y ") + how)) << text;
     EXPECT_FALSE(has(text, "probe_x")) << text;
-    told.follow.channel_status[1] = 0;
-    told.tell(1.2);
-    EXPECT_EQ(told.find(alert_type::kSensor), nullptr);
+    published.follow.channel_status[1] = 0;
+    published.tell(1.2);
+    EXPECT_EQ(published.find(alert_type::kSensor), nullptr);
   }
 }
 
 TEST(EstimatorAlarm, AChannelThatComesAndGoesIsNone) {
-  Published told;
+  Published published;
   for (int i = 0; i < 30; ++i) {
-    told.follow.channel_status[0] = static_cast<std::uint8_t>(i % 2);
-    told.tell(1.5);
+    published.follow.channel_status[0] = static_cast<std::uint8_t>(i % 2);
+    published.tell(1.5);
   }
-  EXPECT_EQ(told.find(alert_type::kSensor), nullptr);
+  EXPECT_EQ(published.find(alert_type::kSensor), nullptr);
 }
 
 TEST(EstimatorAlarm, ShaftAndClockAreSensorsToo) {
-  Published told;
-  told.follow.shaft_known = false;
-  told.follow.clock_offset = -3600.0;  // somebody has set it by an hour
-  told.tell(2.2);
-  const std::string text = told.text(alert_type::kSensor);
+  Published published;
+  published.follow.shaft_known = false;
+  published.follow.clock_offset = -3600.0;  // somebody has set it by an hour
+  published.tell(2.2);
+  const std::string text = published.text(alert_type::kSensor);
   EXPECT_TRUE(has(text, "the shaft's angle is unknown")) << text;
   EXPECT_TRUE(has(text, "the machine's clock has an offset of -3.6e+03 s")) << text;
-  told.follow.shaft_known = true;
-  told.follow.clock_offset = 0.0;
-  told.follow.clock_drift = 1.0e-3;
-  told.tell(4.0);
-  EXPECT_TRUE(has(told.text(alert_type::kSensor), "drifts by +0.001 s/s"));
+  published.follow.shaft_known = true;
+  published.follow.clock_offset = 0.0;
+  published.follow.clock_drift = 1.0e-3;
+  published.tell(4.0);
+  EXPECT_TRUE(has(published.text(alert_type::kSensor), "drifts by +0.001 s/s"));
 }
 
 TEST(EstimatorAlarm, WhatIsNotThereIsNotMissed) {
@@ -213,14 +214,14 @@ TEST(EstimatorAlarm, WhatIsNotThereIsNotMissed) {
 }
 
 TEST(EstimatorAlarm, AHundredDeadChannelsFitATextThatAMessageCarries) {
-  Published told;
+  Published published;
   for (int i = 0; i < 100; ++i) {
-    told.follow.channel.push_back("probes/channel_" + std::to_string(i));
-    told.follow.channel_status.push_back(1);
+    published.follow.channel.push_back("probes/channel_" + std::to_string(i));
+    published.follow.channel_status.push_back(1);
   }
-  told.tell(2.2);
-  EXPECT_NO_THROW(requireText("text", told.text(alert_type::kSensor)));
-  EXPECT_TRUE(has(told.text(alert_type::kSensor), "..."));
+  published.tell(2.2);
+  EXPECT_NO_THROW(requireText("text", published.text(alert_type::kSensor)));
+  EXPECT_TRUE(has(published.text(alert_type::kSensor), "..."));
 }
 
 /// What a motor turns is followed by its pulses: without them its shaft is not known.

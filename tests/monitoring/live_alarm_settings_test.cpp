@@ -124,56 +124,56 @@ struct Published {
 };
 
 TEST(LiveAlarmSettings, ALoweredLevelRaisesAndOneThatIsLiftedClearsAfterItsDelay) {
-  Published told;
-  told.tell(0.8e-3, 1.0);
-  EXPECT_EQ(told.alert(), nullptr);
-  told.change("{amplitude: {rotor: {alert: 0.5e-3}}}");
-  told.tell(0.8e-3, 0.3);
-  ASSERT_NE(told.alert(), nullptr);
-  EXPECT_EQ(told.alert()->amplitude_limit, 0.5e-3);
-  told.change("{amplitude: {rotor: {alert: 1.0e-3}}}");
-  told.tell(0.8e-3, 0.9);
-  EXPECT_NE(told.alert(), nullptr) << "the clear delay";
-  told.tell(0.8e-3, 0.5);
-  EXPECT_EQ(told.alert(), nullptr);
+  Published published;
+  published.tell(0.8e-3, 1.0);
+  EXPECT_EQ(published.alert(), nullptr);
+  published.change("{amplitude: {rotor: {alert: 0.5e-3}}}");
+  published.tell(0.8e-3, 0.3);
+  ASSERT_NE(published.alert(), nullptr);
+  EXPECT_EQ(published.alert()->amplitude_limit, 0.5e-3);
+  published.change("{amplitude: {rotor: {alert: 1.0e-3}}}");
+  published.tell(0.8e-3, 0.9);
+  EXPECT_NE(published.alert(), nullptr) << "the clear delay";
+  published.tell(0.8e-3, 0.5);
+  EXPECT_EQ(published.alert(), nullptr);
 }
 
 TEST(LiveAlarmSettings, AnAlertWhoseLevelIsTakenAwayClears) {
-  Published told;
-  told.tell(2.0e-3, 0.3);
-  ASSERT_NE(told.alert(), nullptr);
-  told.change("{amplitude: ~}");
-  told.tell(2.0e-3, 1.2);
-  EXPECT_EQ(told.alert(), nullptr);
+  Published published;
+  published.tell(2.0e-3, 0.3);
+  ASSERT_NE(published.alert(), nullptr);
+  published.change("{amplitude: ~}");
+  published.tell(2.0e-3, 1.2);
+  EXPECT_EQ(published.alert(), nullptr);
 }
 
 TEST(LiveAlarmSettings, AnAlertKeepsItsIdAndWhatIsLatchedStays) {
-  Published told("{latch: all, amplitude: {rotor: {alert: 1.0e-3}}}");
-  told.tell(2.0e-3, 0.3);
-  ASSERT_NE(told.alert(), nullptr);
-  const std::uint32_t id = told.alert()->id;
-  told.monitor.alerts().acknowledge("", "");
-  told.change("{amplitude: {rotor: {alert: 1.5e-3}}, clear_delay: 0.5}");
-  told.tell(2.0e-3, 1.0);
-  EXPECT_EQ(told.alert()->id, id);
-  EXPECT_TRUE(told.alert()->acknowledged);
-  told.tell(0.1e-3, 1.0);
-  ASSERT_TRUE(told.alert()->latched);
-  told.change("{latch: none, amplitude: ~}");
-  told.tell(0.1e-3, 5.0);
-  ASSERT_NE(told.alert(), nullptr);
-  EXPECT_EQ(told.alert()->id, id);
-  EXPECT_EQ(told.monitor.alerts().reset(told.time), 1u);
+  Published published("{latch: all, amplitude: {rotor: {alert: 1.0e-3}}}");
+  published.tell(2.0e-3, 0.3);
+  ASSERT_NE(published.alert(), nullptr);
+  const std::uint32_t id = published.alert()->id;
+  published.monitor.alerts().acknowledge("", "");
+  published.change("{amplitude: {rotor: {alert: 1.5e-3}}, clear_delay: 0.5}");
+  published.tell(2.0e-3, 1.0);
+  EXPECT_EQ(published.alert()->id, id);
+  EXPECT_TRUE(published.alert()->acknowledged);
+  published.tell(0.1e-3, 1.0);
+  ASSERT_TRUE(published.alert()->latched);
+  published.change("{latch: none, amplitude: ~}");
+  published.tell(0.1e-3, 5.0);
+  ASSERT_NE(published.alert(), nullptr);
+  EXPECT_EQ(published.alert()->id, id);
+  EXPECT_EQ(published.monitor.alerts().reset(published.time), 1u);
 }
 
 TEST(LiveAlarmSettings, ASetDelayThatRunsGoesOn) {
-  Published told("{delays: {WHIRL_AMPLITUDE: {set: 3}}, amplitude: {rotor: {alert: 1.0e-3}}}");
-  told.tell(2.0e-3, 2.5);
-  told.change("{subsynchronous: {rotor: 1.0e-5}}");
-  told.tell(2.0e-3, 0.4);
-  EXPECT_EQ(told.alert(), nullptr);
-  told.tell(2.0e-3, 0.3);
-  EXPECT_NE(told.alert(), nullptr);
+  Published published("{delays: {WHIRL_AMPLITUDE: {set: 3}}, amplitude: {rotor: {alert: 1.0e-3}}}");
+  published.tell(2.0e-3, 2.5);
+  published.change("{subsynchronous: {rotor: 1.0e-5}}");
+  published.tell(2.0e-3, 0.4);
+  EXPECT_EQ(published.alert(), nullptr);
+  published.tell(2.0e-3, 0.3);
+  EXPECT_NE(published.alert(), nullptr);
 }
 
 }  // namespace live_alarm_settings_test

@@ -71,7 +71,7 @@ struct MeasuredMachine {
         }
       }
       for (const state::OrderState& now : monitor().takeOrders()) {
-        told = now;
+        published = now;
       }
       if (i % 100 == 0) {
         monitor().tick(watched.wall, false);
@@ -92,7 +92,7 @@ struct MeasuredMachine {
   OrderObserver orders;
   bool states = false;
   std::function<bool(state::Measurement&)> spoil = [](state::Measurement&) { return true; };
-  state::OrderState told;  ///< last, of what was measured
+  state::OrderState published;  ///< last, of what was measured
 };
 
 AlarmSettings withZones(double b, double c) {
@@ -122,12 +122,12 @@ TEST(MeasuredSignal, OrdersAndAlarmsComeWithoutATwin) {
   MeasuredMachine machine(kMeasured, settings);
   machine.run(3.0);
   const state::OrderState truth = machine.trueOrders();
-  ASSERT_TRUE(machine.told.valid);
-  EXPECT_EQ(machine.told.system, "rotor_measured");
-  EXPECT_NEAR(machine.told.speed, 150.0, 1e-2);
-  EXPECT_NEAR(machine.told.forward_amplitude[0], truth.forward_amplitude[0], 1e-7);
-  EXPECT_NEAR(std::remainder(machine.told.forward_lag[0] - truth.forward_lag[0], 6.283185307), 0.0,
-              5e-3);
+  ASSERT_TRUE(machine.published.valid);
+  EXPECT_EQ(machine.published.system, "rotor_measured");
+  EXPECT_NEAR(machine.published.speed, 150.0, 1e-2);
+  EXPECT_NEAR(machine.published.forward_amplitude[0], truth.forward_amplitude[0], 1e-7);
+  EXPECT_NEAR(std::remainder(machine.published.forward_lag[0] - truth.forward_lag[0], 6.283185307),
+              0.0, 5e-3);
   ASSERT_NE(machine.alert(alert_type::kVibrationZone), nullptr);
   EXPECT_EQ(machine.alert(alert_type::kVibrationZone)->severity, state::Severity::kWarning);
   EXPECT_EQ(machine.notOk(), "");
@@ -170,12 +170,12 @@ TEST(MeasuredSignal, SlowRollIsLearntAtSlowSpeedAndTakenOff) {
     MeasuredMachine machine(run_up, settings);
     machine.run(14.0);
     const state::OrderState truth = machine.trueOrders();
-    ASSERT_TRUE(machine.told.valid);
+    ASSERT_TRUE(machine.published.valid);
     const auto of = [](const state::OrderState& orders) {
       return std::polar(orders.forward_amplitude[0], -orders.forward_lag[0]);
     };
     // At 20 rad/s 0.8 um of unbalance belong to it.
-    const double off = std::abs(of(machine.told) - of(truth));
+    const double off = std::abs(of(machine.published) - of(truth));
     EXPECT_NEAR(off, learn ? 0.0 : 1.0e-5, 1.0e-6);
     ASSERT_EQ(machine.monitor().slowRoll("rotor").has_value(), learn);
     if (learn) {
@@ -234,7 +234,7 @@ TEST(MeasuredSignal, WithoutPulsesVibrationIsJudgedOn) {
   machine.spoil = [](state::Measurement& block) { return block.source != "tacho"; };
   machine.run(4.0);
   EXPECT_EQ(machine.notOk().find("timeout: no pulse of tacho for"), 0u) << machine.notOk();
-  EXPECT_FALSE(machine.told.valid);
+  EXPECT_FALSE(machine.published.valid);
   EXPECT_EQ(machine.alert(alert_type::kVibrationZone), nullptr);
   machine.spoil = [](state::Measurement& block) {
     for (std::size_t i = 0; block.source == "probes" && i < block.value.size(); ++i) {

@@ -48,75 +48,75 @@ struct Published {
 };
 
 TEST(VibrationZone, WarnsInCIsDangerInDAndClearsInB) {
-  Published told;
-  told.orders.peak_to_peak = 99e-6;
-  told.tell(1.0);
-  EXPECT_EQ(told.zone(), nullptr);
-  told.orders.peak_to_peak = 120e-6;
-  told.tell(0.1);
-  ASSERT_NE(told.zone(), nullptr);
-  EXPECT_EQ(told.zone()->severity, state::Severity::kWarning);
-  EXPECT_NE(told.zone()->text.find("zone C"), std::string::npos) << told.zone()->text;
-  told.orders.peak_to_peak = 250e-6;
-  told.tell(0.1);
-  EXPECT_EQ(told.zone()->severity, state::Severity::kDanger);
-  EXPECT_NE(told.zone()->text.find("zone D"), std::string::npos) << told.zone()->text;
-  told.orders.peak_to_peak = 90e-6;
-  told.tell(0.9);
-  EXPECT_NE(told.zone(), nullptr);
-  told.tell(0.3);
-  EXPECT_EQ(told.zone(), nullptr);
+  Published published;
+  published.orders.peak_to_peak = 99e-6;
+  published.tell(1.0);
+  EXPECT_EQ(published.zone(), nullptr);
+  published.orders.peak_to_peak = 120e-6;
+  published.tell(0.1);
+  ASSERT_NE(published.zone(), nullptr);
+  EXPECT_EQ(published.zone()->severity, state::Severity::kWarning);
+  EXPECT_NE(published.zone()->text.find("zone C"), std::string::npos) << published.zone()->text;
+  published.orders.peak_to_peak = 250e-6;
+  published.tell(0.1);
+  EXPECT_EQ(published.zone()->severity, state::Severity::kDanger);
+  EXPECT_NE(published.zone()->text.find("zone D"), std::string::npos) << published.zone()->text;
+  published.orders.peak_to_peak = 90e-6;
+  published.tell(0.9);
+  EXPECT_NE(published.zone(), nullptr);
+  published.tell(0.3);
+  EXPECT_EQ(published.zone(), nullptr);
 }
 
 TEST(VibrationZone, LevelsAreMultipliedInStartUp) {
   AlarmSettings settings = withLevels();
   settings.trip_multiply = 3.0;
-  Published told(settings);
-  told.orders.peak_to_peak = 250e-6;
-  told.tell(1.0, 5.0);
-  EXPECT_EQ(told.zone(), nullptr);
-  told.tell(2.0, 0.0);
-  ASSERT_NE(told.zone(), nullptr);
-  EXPECT_EQ(told.zone()->severity, state::Severity::kDanger);
+  Published published(settings);
+  published.orders.peak_to_peak = 250e-6;
+  published.tell(1.0, 5.0);
+  EXPECT_EQ(published.zone(), nullptr);
+  published.tell(2.0, 0.0);
+  ASSERT_NE(published.zone(), nullptr);
+  EXPECT_EQ(published.zone()->severity, state::Severity::kDanger);
 }
 
 TEST(SubsynchronousWhirl, IsAForwardLineBelowTheSpeedAndAboveItsLevel) {
-  Published told;
-  told.line(96.0, 19e-6);
-  told.tell(1.0);
-  EXPECT_EQ(told.whirl(), nullptr) << "too small";
-  told.line(96.0, 1e-6, 30e-6);
-  told.tell(1.0);
-  EXPECT_EQ(told.whirl(), nullptr) << "backward";
-  told.line(250.0, 30e-6);
-  told.tell(1.0);
-  EXPECT_EQ(told.whirl(), nullptr) << "faster than the shaft";
-  told.line(96.0, 30e-6);
-  told.tell(0.2);
-  ASSERT_NE(told.whirl(), nullptr);
-  EXPECT_NE(told.whirl()->text.find("96.0 rad/s, 0.48 times the speed"), std::string::npos)
-      << told.whirl()->text;
-  told.orders.valid = false;
-  told.line(96.0, 0.0);
-  told.tell(3.0);
-  EXPECT_NE(told.whirl(), nullptr) << "without orders nothing is known";
-  told.orders.valid = true;
-  told.tell(1.2);
-  EXPECT_EQ(told.whirl(), nullptr);
+  Published published;
+  published.line(96.0, 19e-6);
+  published.tell(1.0);
+  EXPECT_EQ(published.whirl(), nullptr) << "too small";
+  published.line(96.0, 1e-6, 30e-6);
+  published.tell(1.0);
+  EXPECT_EQ(published.whirl(), nullptr) << "backward";
+  published.line(250.0, 30e-6);
+  published.tell(1.0);
+  EXPECT_EQ(published.whirl(), nullptr) << "faster than the shaft";
+  published.line(96.0, 30e-6);
+  published.tell(0.2);
+  ASSERT_NE(published.whirl(), nullptr);
+  EXPECT_NE(published.whirl()->text.find("96.0 rad/s, 0.48 times the speed"), std::string::npos)
+      << published.whirl()->text;
+  published.orders.valid = false;
+  published.line(96.0, 0.0);
+  published.tell(3.0);
+  EXPECT_NE(published.whirl(), nullptr) << "without orders nothing is known";
+  published.orders.valid = true;
+  published.tell(1.2);
+  EXPECT_EQ(published.whirl(), nullptr);
 }
 
 TEST(SubsynchronousWhirl, IsOilWhirlWhereTheRatioStaysAndWhipWhereTheFrequencyStays) {
   for (const bool whip : {false, true}) {
-    Published told;
+    Published published;
     for (double speed = 200.0; speed < 230.0; speed += 1.0) {
-      told.orders.speed = speed;
-      told.line(whip ? 99.0 : 0.47 * speed, 40e-6);
-      told.tell(0.1);
+      published.orders.speed = speed;
+      published.line(whip ? 99.0 : 0.47 * speed, 40e-6);
+      published.tell(0.1);
     }
-    ASSERT_NE(told.whirl(), nullptr);
+    ASSERT_NE(published.whirl(), nullptr);
     const char* expected =
         whip ? "keeps its frequency: oil whip" : "keeps its ratio to the speed: oil";
-    EXPECT_NE(told.whirl()->text.find(expected), std::string::npos) << told.whirl()->text;
+    EXPECT_NE(published.whirl()->text.find(expected), std::string::npos) << published.whirl()->text;
   }
 }
 
@@ -143,50 +143,52 @@ struct Rubbing : Published {
 };
 
 TEST(Rub, IsToldByWhatWhirlsBackward) {
-  Rubbing told;
-  told.circles(300e-6, 19e-6);
-  told.tell(1.0);
-  EXPECT_EQ(told.rub(), nullptr);
-  told.circles(60e-6, 22e-6);
-  told.tell(0.2);
-  ASSERT_NE(told.rub(), nullptr);
-  EXPECT_EQ(told.rub()->severity, state::Severity::kWarning);
-  EXPECT_NEAR(told.rub()->amplitude, 22e-6, 0.3e-6);
-  EXPECT_NE(told.rub()->text.find("backward whirl 2"), std::string::npos) << told.rub()->text;
-  told.circles(60e-6, 500e-6);
-  told.tell(0.2);
-  EXPECT_EQ(told.rub()->severity, state::Severity::kDanger);
-  EXPECT_NE(told.rub()->text.find("stop the machine"), std::string::npos) << told.rub()->text;
-  told.circles(60e-6, 1e-6);
-  told.tell(1.3);
-  EXPECT_EQ(told.rub(), nullptr);
+  Rubbing published;
+  published.circles(300e-6, 19e-6);
+  published.tell(1.0);
+  EXPECT_EQ(published.rub(), nullptr);
+  published.circles(60e-6, 22e-6);
+  published.tell(0.2);
+  ASSERT_NE(published.rub(), nullptr);
+  EXPECT_EQ(published.rub()->severity, state::Severity::kWarning);
+  EXPECT_NEAR(published.rub()->amplitude, 22e-6, 0.3e-6);
+  EXPECT_NE(published.rub()->text.find("backward whirl 2"), std::string::npos)
+      << published.rub()->text;
+  published.circles(60e-6, 500e-6);
+  published.tell(0.2);
+  EXPECT_EQ(published.rub()->severity, state::Severity::kDanger);
+  EXPECT_NE(published.rub()->text.find("stop the machine"), std::string::npos)
+      << published.rub()->text;
+  published.circles(60e-6, 1e-6);
+  published.tell(1.3);
+  EXPECT_EQ(published.rub(), nullptr);
 }
 
 TEST(Rub, IsToldByAHalfAndAThirdOfTheSpeedAndByNoOtherLine) {
   for (const double part : {1.0 / 2.0, 1.0 / 3.0}) {
-    Rubbing told;
-    told.circles(60e-6, 0.0);
-    told.line(0.47 * told.orders.speed, 50e-6);
-    told.tell(1.0);
-    EXPECT_EQ(told.rub(), nullptr);
-    told.line(part * told.orders.speed, 9e-6);
-    told.tell(1.0);
-    EXPECT_EQ(told.rub(), nullptr);
-    told.line(part * told.orders.speed, 5e-6, 8e-6);
-    told.tell(0.2);
-    ASSERT_NE(told.rub(), nullptr);
-    EXPECT_NEAR(told.rub()->amplitude, 13e-6, 1e-12);
-    EXPECT_EQ(told.rub()->severity, state::Severity::kWarning);
+    Rubbing published;
+    published.circles(60e-6, 0.0);
+    published.line(0.47 * published.orders.speed, 50e-6);
+    published.tell(1.0);
+    EXPECT_EQ(published.rub(), nullptr);
+    published.line(part * published.orders.speed, 9e-6);
+    published.tell(1.0);
+    EXPECT_EQ(published.rub(), nullptr);
+    published.line(part * published.orders.speed, 5e-6, 8e-6);
+    published.tell(0.2);
+    ASSERT_NE(published.rub(), nullptr);
+    EXPECT_NEAR(published.rub()->amplitude, 13e-6, 1e-12);
+    EXPECT_EQ(published.rub()->severity, state::Severity::kWarning);
   }
 }
 
 TEST(OrderAlarm, WithoutLevelsSaysNothing) {
-  Published told(AlarmSettings{});
-  told.orders.peak_to_peak = 1.0;
-  told.orders.precession = -1.0;
-  told.line(100.0, 1.0);
-  told.tell(5.0);
-  EXPECT_TRUE(told.alerts.active().empty());
+  Published published(AlarmSettings{});
+  published.orders.peak_to_peak = 1.0;
+  published.orders.precession = -1.0;
+  published.line(100.0, 1.0);
+  published.tell(5.0);
+  EXPECT_TRUE(published.alerts.active().empty());
 }
 
 // The shipped scene from its quiet speed into the whip, under the monitor.

@@ -22,7 +22,7 @@ Scene held(double setpoint) {
       setpoint));
 }
 
-state::ControllerState told(double time, std::int64_t samples, std::int64_t saturated) {
+state::ControllerState published(double time, std::int64_t samples, std::int64_t saturated) {
   state::ControllerState state;
   state.at.time = time;
   state.controller = "hold";
@@ -44,7 +44,7 @@ TEST(SaturationAlarm, WarnsAfterTheTimeAllowedAndClears) {
   for (int i = 0; i <= 1200; ++i) {  // 100 samples a second of two outputs, from 2 s to 7 s 80 %
     const double time = 0.01 * i;
     saturated += i > 200 && i <= 700 && i % 5 != 0 ? 2 : 0;
-    alarm.update(told(time, i, saturated), list);
+    alarm.update(published(time, i, saturated), list);
     if (i == 650) {
       EXPECT_NEAR(alarm.saturated(), 0.8, 1e-12);
       EXPECT_NEAR(alarm.missed(), 0.25, 1e-12);
@@ -65,7 +65,7 @@ TEST(SaturationAlarm, ShorterThanAllowedIsNone) {
   std::int64_t saturated = 0;
   for (int i = 0; i <= 1000; ++i) {
     saturated += i > 200 && i <= 400 ? 2 : 0;
-    alarm.update(told(0.01 * i, i, saturated), list);
+    alarm.update(published(0.01 * i, i, saturated), list);
     EXPECT_TRUE(list.active().empty());
   }
 }
@@ -73,9 +73,9 @@ TEST(SaturationAlarm, ShorterThanAllowedIsNone) {
 TEST(SaturationAlarm, ATimeThatBeginsAnewIsNoNews) {
   AlertList list;
   ControllerAlarms alarm(controllerNamed("hold"), AlarmSettings{});
-  alarm.update(told(50.0, 5000, 10000), list);
-  alarm.update(told(0.0, 0, 0), list);
-  alarm.update(told(1.0, 100, 20), list);
+  alarm.update(published(50.0, 5000, 10000), list);
+  alarm.update(published(0.0, 0, 0), list);
+  alarm.update(published(1.0, 100, 20), list);
   EXPECT_NEAR(alarm.saturated(), 0.1, 1e-12);
 }
 

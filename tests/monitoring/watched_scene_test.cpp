@@ -17,7 +17,7 @@ systems:
   rotor: {model: jeffcott_rotor, parameters: {mass: 2.0, stiffness: 7200.0}}
 )";
 
-state::SceneText told(const std::string& yaml) {
+state::SceneText published(const std::string& yaml) {
   state::SceneText text;
   text.source = "field.yaml";
   std::istringstream lines(yaml);
@@ -38,28 +38,29 @@ std::string another() {
 
 TEST(WatchedScene, TheSameSceneInOtherWordsIsTheSame) {
   WatchedScene scene = sceneOfMonitor();
-  scene.take(told("systems:\n  rotor:\n    parameters:\n      stiffness: 7.2e3\n      mass: 2\n"
-                  "    model: jeffcott_rotor\nstep: 1e-3\n"),
-             1);
+  scene.take(
+      published("systems:\n  rotor:\n    parameters:\n      stiffness: 7.2e3\n      mass: 2\n"
+                "    model: jeffcott_rotor\nstep: 1e-3\n"),
+      1);
   EXPECT_EQ(scene.mismatch(), "");
 }
 
 TEST(WatchedScene, AnotherSceneIsReportedWithWhereItDiffers) {
   WatchedScene scene = sceneOfMonitor();
-  scene.take(told(another()), 1);
+  scene.take(published(another()), 1);
   EXPECT_NE(
       scene.mismatch().find("the scene of the twin (field.yaml) differs from that of the monitor "
                             "(own.yaml): systems.rotor.parameters.mass is 3 there, 2 here"),
       std::string::npos)
       << scene.mismatch();
-  scene.take(told(kOwn), 1);
+  scene.take(published(kOwn), 1);
   EXPECT_EQ(scene.mismatch(), "");
 }
 
 TEST(WatchedScene, ASecondTwinsSceneIsOfNoAccount) {
   WatchedScene scene = sceneOfMonitor();
-  scene.take(told(kOwn), 1);
-  scene.take(told(another()), 1);
+  scene.take(published(kOwn), 1);
+  scene.take(published(another()), 1);
   EXPECT_EQ(scene.mismatch(), "");
   scene.follow(2);  // it has taken the place of the first
   EXPECT_NE(scene.mismatch(), "");
@@ -68,7 +69,7 @@ TEST(WatchedScene, ASecondTwinsSceneIsOfNoAccount) {
 TEST(WatchedScene, WhatIsNoSceneIsReported) {
   for (const char* text : {"", "systems: [", "just words", "{systems: {}}"}) {
     WatchedScene scene = sceneOfMonitor();
-    scene.take(told(text), std::nullopt);
+    scene.take(published(text), std::nullopt);
     EXPECT_NE(scene.mismatch(), "") << text;
   }
 }

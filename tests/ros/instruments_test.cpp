@@ -185,9 +185,9 @@ TEST(MarginGauge, WhatIsNotLiveShowsNothing) {
 }
 
 TEST(MarginGauge, AVerdictIsLiveForThreeSecondsOrWhileTheSimulationIsHeld) {
-  StabilityMargin told = marginOf(0.3);
-  told.age = 0.2;
-  const auto margin = boost::make_shared<StabilityMargin>(told);
+  StabilityMargin published = marginOf(0.3);
+  published.age = 0.2;
+  const auto margin = boost::make_shared<StabilityMargin>(published);
   EXPECT_TRUE(liveMargin(margin, 2.7, false, "").margin);
   EXPECT_NEAR(liveMargin(margin, 2.7, false, "").age, 2.9, 1e-12);
   EXPECT_FALSE(liveMargin(margin, 2.9, false, "").margin);

@@ -80,7 +80,7 @@ std::optional<AmbientRecord> recorded(NoisyShaft& shaft, Eigen::Index stations, 
   for (std::int64_t i = 0; static_cast<double>(i) * step < duration; ++i) {
     modes.take(shaft.next());
   }
-  return modes.told();
+  return modes.record();
 }
 
 const std::vector<KnownMode> kFourModes{{{-1.5, 100.0}, {1.0, 0.6}, 1e-5},
@@ -113,7 +113,7 @@ TEST(AmbientModes, AreFoundOfBothSensesWithTheirShapes) {
 // 95 of 100 records of one and a half minutes should hold the truth in their intervals.
 TEST(AmbientModes, IntervalsHoldWhatTheySay) {
   const std::vector<KnownMode> modes{{{-1.2, 100.0}, {1.0}, 1e-5}, {{-2.0, -90.0}, {1.0}, 7e-6}};
-  int told = 0, inside_frequency = 0, inside_decay = 0;
+  int identified = 0, inside_frequency = 0, inside_decay = 0;
   double bias = 0.0;
   for (unsigned seed = 0; seed < 100; ++seed) {
     NoisyShaft shaft(modes, 4e-3, 130.0, 3e-6, seed);
@@ -121,7 +121,7 @@ TEST(AmbientModes, IntervalsHoldWhatTheySay) {
     ASSERT_TRUE(record);
     for (const AmbientMode& mode : record->modes) {
       const KnownMode& truth = modes[mode.frequency > 0.0 ? 0 : 1];
-      ++told;
+      ++identified;
       inside_frequency += std::fabs(mode.frequency - truth.pole.imag()) <
                           record->interval * mode.frequency_deviation;
       inside_decay +=
@@ -129,12 +129,12 @@ TEST(AmbientModes, IntervalsHoldWhatTheySay) {
       bias += mode.decay_rate / -truth.pole.real() - 1.0;
     }
   }
-  EXPECT_GE(told, 195);
-  EXPECT_LE(told, 204);  // nothing that is not there
-  EXPECT_GE(inside_frequency, 0.91 * told);
-  EXPECT_GE(inside_decay, 0.91 * told);
-  EXPECT_LT(std::fabs(bias / told), 0.08);
-  EXPECT_LE(inside_frequency + inside_decay, 1.99 * told);  // and are not trivially wide
+  EXPECT_GE(identified, 195);
+  EXPECT_LE(identified, 204);  // nothing that is not there
+  EXPECT_GE(inside_frequency, 0.91 * identified);
+  EXPECT_GE(inside_decay, 0.91 * identified);
+  EXPECT_LT(std::fabs(bias / identified), 0.08);
+  EXPECT_LE(inside_frequency + inside_decay, 1.99 * identified);  // and are not trivially wide
 }
 
 TEST(AmbientModes, AreSaidToStandAtAnOrderThatCannotBeToldFromThem) {
@@ -171,7 +171,7 @@ TEST(AmbientModes, GoOnAfterAGap) {
       modes.take(sample);
     }
   }
-  const auto record = modes.told();
+  const auto record = modes.record();
   ASSERT_TRUE(record);
   EXPECT_EQ(record->modes.size(), 4u);
   EXPECT_LT(record->duration, 117.0);

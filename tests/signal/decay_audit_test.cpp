@@ -84,7 +84,7 @@ class NoisyRotor {
 };
 
 struct Audits {
-  int told = 0, inside = 0;
+  int reported = 0, inside = 0;
   double mean = 0.0, error = 0.0, said = 0.0;  // [1/s]
 };
 
@@ -97,7 +97,7 @@ Audits audited(double external, double internal, double probe_noise) {
     for (int i = 0; i < 42500; ++i) {
       if (const auto decay = audit.take(rotor.next())) {
         const double off = decay->decay_rate - rotor.decayRate();
-        ++a.told;
+        ++a.reported;
         a.inside += std::fabs(off) < 3.0 * decay->deviation ? 1 : 0;
         a.mean += decay->decay_rate;
         a.said += decay->deviation;
@@ -106,16 +106,16 @@ Audits audited(double external, double internal, double probe_noise) {
       }
     }
   }
-  a.mean /= a.told;
-  a.said /= a.told;
-  a.error = std::sqrt(a.error / a.told);
+  a.mean /= a.reported;
+  a.said /= a.reported;
+  a.error = std::sqrt(a.error / a.reported);
   return a;
 }
 
 TEST(DecayAudit, FindsTheDecayOfANoisyRotorWithinItsInterval) {
   const double truth = NoisyRotor(4.0, 2.0, 120.0, 0.0, 0).decayRate();
   const Audits a = audited(4.0, 2.0, 1.0e-5);
-  EXPECT_EQ(a.told, 20);
+  EXPECT_EQ(a.reported, 20);
   EXPECT_GE(a.inside, 19);
   EXPECT_NEAR(a.mean, truth, 0.25 * truth);
   // The limit of theory is sqrt(s/T).
@@ -130,7 +130,7 @@ TEST(DecayAudit, IsNotDeceivedByNoisyProbesNearTheThreshold) {
   const double truth = NoisyRotor(4.0, 3.2, 120.0, 0.0, 0).decayRate();
   EXPECT_LT(truth, 1.7);
   const Audits a = audited(4.0, 3.2, 4.0e-5);
-  EXPECT_EQ(a.told, 20);
+  EXPECT_EQ(a.reported, 20);
   EXPECT_GE(a.inside, 19);
   EXPECT_NEAR(a.mean, truth, 0.3 * truth);
 }

@@ -61,10 +61,10 @@ TEST(CommandLine, TheVersionIsThatOfThePackage) {
   const std::string package = contentsOf(WHIRL_TWIN_SOURCE "/package.xml");
   const std::size_t begin = package.find("<version>") + std::string("<version>").size();
   const std::string version = package.substr(begin, package.find("</version>") - begin);
-  const Ending told = twin({"--version"});
-  EXPECT_EQ(told.status, 0);
-  EXPECT_EQ(told.err, "");
-  EXPECT_EQ(told.out, "twin (whirl_twin) " + version + "\n");
+  const Ending result = twin({"--version"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out, "twin (whirl_twin) " + version + "\n");
 }
 
 struct Misuse {

@@ -74,12 +74,12 @@ TEST_F(Fit, FindsWhatTheRunsWereMadeWith) {
   const YAML::Node together = system["spread"]["correlations"];
   ASSERT_EQ(together.size(), 3U);
   for (const YAML::Node& pair : together) {
-    const auto told = std::find_if(
+    const auto reported = std::find_if(
         json["correlations"].begin(), json["correlations"].end(), [&](const nlohmann::json& other) {
           return other[0] == pair[0].as<std::string>() && other[1] == pair[1].as<std::string>();
         });
-    ASSERT_NE(told, json["correlations"].end());
-    EXPECT_NEAR(pair[2].as<double>(), (*told)[2].get<double>(), 1e-10);
+    ASSERT_NE(reported, json["correlations"].end());
+    EXPECT_NEAR(pair[2].as<double>(), (*reported)[2].get<double>(), 1e-10);
   }
   EXPECT_EQ(twin({"analyze", directory_.file("fitted.yaml"), "--json"})
                 .json()["systems"]["arm"]["spread_margin"]["members"],
@@ -147,8 +147,9 @@ TEST_F(Fit, FitsALogOfWhatWasMeasured) {
   const nlohmann::json json = fit(study("encoder/theta")).json();
   for (const auto& [name, value] :
        {std::pair("inertia", 0.02), std::pair("damping", 0.03), std::pair("coulomb", 0.05)}) {
-    const auto& told = json["parameters"][name];
-    EXPECT_NEAR(told["value"].get<double>(), value, 4.0 * told["standard_deviation"].get<double>())
+    const auto& reported = json["parameters"][name];
+    EXPECT_NEAR(reported["value"].get<double>(), value,
+                4.0 * reported["standard_deviation"].get<double>())
         << name;
   }
   EXPECT_NEAR(json["runs"]["swing.lcmlog"]["rms"]["theta"].get<double>(), 0.001, 1e-4);
@@ -182,16 +183,16 @@ class MeasuredTorque : public Fit {
 
 /// A swing-up identifies its period, not its weight relative to the torque's scale.
 TEST_F(MeasuredTorque, OfASwingUpTellsThePeriod) {
-  const nlohmann::json told = ofRecord("swing_up", "{column: theta, offset: fit}");
-  const double mass = told["parameters"]["mass"]["value"];
-  const double inertia = told["parameters"]["inertia"]["value"];
+  const nlohmann::json reported = ofRecord("swing_up", "{column: theta, offset: fit}");
+  const double mass = reported["parameters"]["mass"]["value"];
+  const double inertia = reported["parameters"]["inertia"]["value"];
   EXPECT_NEAR((0.25 * mass + inertia) / (0.25 * mass), 1.0, 0.02) << "J/(m g l) beside l/g";
   for (const char* name : {"mass", "torque.scale"}) {
-    EXPECT_THAT(told["undetermined"], testing::Contains(name));
+    EXPECT_THAT(reported["undetermined"], testing::Contains(name));
   }
   // The damping starts at a fifteenth of its true value: the mass must still be found.
   EXPECT_GT(mass, 0.25);
-  EXPECT_LT(told["runs"].begin().value()["rms"]["theta"].get<double>(), 5.0e-3);
+  EXPECT_LT(reported["runs"].begin().value()["rms"]["theta"].get<double>(), 5.0e-3);
 }
 
 /// Where its weight is balanced, and a hand moves it slowly, only the ratio of weight to torque is

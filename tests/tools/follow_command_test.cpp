@@ -179,9 +179,9 @@ TEST_F(FollowedArm, AMotionTooShortForResidualsHasNone) {
   EXPECT_EQ(text.status, 0) << text.err;
   EXPECT_NE(text.out.find("no residual"), std::string::npos) << text.out;
   EXPECT_EQ(text.out.find("nan"), std::string::npos) << text.out;
-  const Json told = twin({"follow", scene_, log, "--json"}).json()["systems"]["arm"];
-  EXPECT_TRUE(told["found"]);
-  EXPECT_TRUE(told["channels"]["encoder/theta"]["residual_rms"].is_null());
+  const Json reported = twin({"follow", scene_, log, "--json"}).json()["systems"]["arm"];
+  EXPECT_TRUE(reported["found"]);
+  EXPECT_TRUE(reported["channels"]["encoder/theta"]["residual_rms"].is_null());
 }
 
 TEST_F(FollowedArm, WhatIsWrongIsSaidAtItsPlaceAllAtOnce) {

@@ -45,9 +45,9 @@ TEST(Import, ARotorOfRossHasTheFrequenciesThatRossTells) {
   ASSERT_EQ(imported.status, 0) << imported.err;
   EXPECT_EQ(imported.err, "");
   const std::string scene = folder.write("example.yaml", imported.out);
-  const Json told = twin({"analyze", scene, "--json"}).json();
+  const Json analysis = twin({"analyze", scene, "--json"}).json();
   std::vector<double> frequencies;
-  for (const Json& value : told["systems"]["rotor"]["eigenvalues"]) {
+  for (const Json& value : analysis["systems"]["rotor"]["eigenvalues"]) {
     frequencies.push_back(std::hypot(value[0].get<double>(), value[1].get<double>()));
   }
   std::sort(frequencies.begin(), frequencies.end());
@@ -209,8 +209,8 @@ TEST(Import, AMachineOfRossHasItsLayersConesSealsAndPedestals) {
       M_PI / 12.0 * 0.1 * (0.06 * 0.06 + 0.06 * 0.05 + 0.05 * 0.05) - ring(0.02, 0.0, 0.1);
   const double mass = 7800.0 * (ring(0.06, 0.0, 0.2) + cone + ring(0.12, 0.1, 0.2)) +
                       8800.0 * ring(0.1, 0.06, 0.2) + 6.5;
-  const Json told = twin({"analyze", scene, "--json"}).json();
-  EXPECT_NEAR(told["systems"]["rotor"]["rotor"]["mass"].get<double>(), mass, 1e-6 * mass);
+  const Json analysis = twin({"analyze", scene, "--json"}).json();
+  EXPECT_NEAR(analysis["systems"]["rotor"]["rotor"]["mass"].get<double>(), mass, 1e-6 * mass);
 }
 
 // The coupling of ROSS's documentation, of 151.55 kg, with a lateral stiffness; a foundation over
@@ -294,8 +294,8 @@ TEST(Import, ACouplingOfRossJoinsTwoShaftsAndAFoundationFollowsTheSpeed) {
         "- {node: 0, mass: 60}\n", "- {pedestal: 0, speed: 400, kxx: 30000000, kyy: 30000000,"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
   }
-  const Json told = twin({"analyze", scene, "--json"}).json();
-  EXPECT_NEAR(told["systems"]["rotor"]["rotor"]["mass"].get<double>(),
+  const Json analysis = twin({"analyze", scene, "--json"}).json();
+  EXPECT_NEAR(analysis["systems"]["rotor"]["rotor"]["mass"].get<double>(),
               151.55 + 7810.0 * 0.7 * M_PI * 0.0016, 1e-6);
 }
 

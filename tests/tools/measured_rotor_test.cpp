@@ -156,15 +156,15 @@ TEST(Modes, RefuseFrequenciesThatNoRecordTells) {
 }
 
 /// 6.0e-4 kg m at 0.9 rad and 9.0e-4 kg m at 3.6 rad, as the shipped scene hides them.
-void expectHiddenUnbalances(const nlohmann::json& told) {
+void expectHiddenUnbalances(const nlohmann::json& report) {
   const double size[] = {6.0e-4, 9.0e-4};
   const double angle[] = {0.9 / kRadian, 3.6 / kRadian - 360.0};
   const char* plane[] = {"node_2", "node_4"};
   for (int i = 0; i < 2; ++i) {
-    const auto found = told["unbalance"][plane[i]];
+    const auto found = report["unbalance"][plane[i]];
     EXPECT_NEAR(found["mass_radius"].get<double>(), size[i], 0.02 * size[i]);
     EXPECT_NEAR(found["angle"].get<double>(), angle[i], 2.0);
-    const auto add = told["correction"][plane[i]];
+    const auto add = report["correction"][plane[i]];
     EXPECT_NEAR(std::remainder(add["angle"].get<double>() - angle[i] - 180.0, 360.0), 0.0, 2.0);
     EXPECT_LT(found["mass_radius_deviation"].get<double>(), 0.02 * size[i]);
     EXPECT_LT(std::fabs(found["mass_radius"].get<double>() - size[i]),
@@ -177,10 +177,10 @@ TEST(BalanceMeasured, FindsWhatTheShippedSceneHidesFromItsRunUp) {
   const std::string log = logOf(folder, kBalancing, 14.0);
   const Ending end = twin({"balance", kBalancing, "--measured", log, "--json"});
   ASSERT_EQ(end.status, 0) << end.err;
-  const auto told = end.json();
-  EXPECT_EQ(told["rank_deficiency"], 0);
-  EXPECT_LT(told["residual_beyond_noise"].get<double>(), 1.2);
-  expectHiddenUnbalances(told);
+  const auto report = end.json();
+  EXPECT_EQ(report["rank_deficiency"], 0);
+  EXPECT_LT(report["residual_beyond_noise"].get<double>(), 1.2);
+  expectHiddenUnbalances(report);
 
   // At one speed run-out and unbalance are indistinguishable; only the free decay at the end of the
   // run-up gives a little information.
@@ -211,15 +211,15 @@ std::string onTwoUnits(const TemporaryDirectory& folder, const std::string& rate
 // The reference are the four probes on one unit: the same unknowns from as many samples.
 TEST(BalanceMeasured, UsesTheProbesOfAllSources) {
   const TemporaryDirectory folder;
-  const auto told = [](const std::string& scene, const std::string& log) {
+  const auto report = [](const std::string& scene, const std::string& log) {
     const Ending end = twin({"balance", scene, "--measured", log, "--json"});
     EXPECT_EQ(end.status, 0) << end.err;
     return end.json();
   };
-  const auto one = told(kBalancing, logOf(folder, kBalancing, 14.0));
+  const auto one = report(kBalancing, logOf(folder, kBalancing, 14.0));
   for (const char* rate : {"2000.0", "1250.0"}) {
     const std::string scene = onTwoUnits(folder, rate);
-    const auto two = told(scene, logOf(folder, scene, 14.0));
+    const auto two = report(scene, logOf(folder, scene, 14.0));
     expectHiddenUnbalances(two);
     ASSERT_EQ(two["run_out"].size(), 4u) << two.dump(1);
     EXPECT_TRUE(two["run_out"].contains("probes/x_1")) << two.dump(1);
@@ -233,7 +233,7 @@ TEST(BalanceMeasured, UsesTheProbesOfAllSources) {
   // A probe that the log lacks is reported.
   std::string text = contentsOf(onTwoUnits(folder, "2000.0"));
   text.replace(text.find("drive_end:"), 10, "other_end:");
-  const auto half = told(folder.write("other.yaml", text), folder.file("run.lcmlog"));
+  const auto half = report(folder.write("other.yaml", text), folder.file("run.lcmlog"));
   EXPECT_EQ(half["run_out"].size(), 2u);
   EXPECT_NE(half["notes"].dump().find("the log has no samples of other_end"), std::string::npos);
 }

@@ -157,12 +157,12 @@ systems:
         - {node: 4, kxx: 1.0e+6, kyy: 0.8e+6, cxx: 3000.0}
       modes: 0
 )");
-  const Json told =
+  const Json response =
       rotorOf(twin({"response", scene, "--force", "node_3", "--along", "y", "--at", "node_1",
                     "--from", "130", "--to", "131", "--points", "2", "--json"}));
-  const std::complex<double> x = 2.0 * phasor(told["stations"]["node_1"]["receptance"]["x"][0]);
-  const std::complex<double> y = 2.0 * phasor(told["stations"]["node_1"]["receptance"]["y"][0]);
-  ASSERT_EQ(told["frequencies"][0], 130.0);
+  const std::complex<double> x = 2.0 * phasor(response["stations"]["node_1"]["receptance"]["x"][0]);
+  const std::complex<double> y = 2.0 * phasor(response["stations"]["node_1"]["receptance"]["y"][0]);
+  ASSERT_EQ(response["frequencies"][0], 130.0);
   const Json state = rotorOf(twin({"simulate", scene, "--duration", "8", "--json"}))["state"];
   const std::complex<double> turn = std::polar(1.0, 130.0 * 8.0);
   const double size = std::abs(x) + std::abs(y);

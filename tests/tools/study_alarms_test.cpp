@@ -41,14 +41,14 @@ measure:
     const std::string scene = files.write("one.yaml", sceneOf(point == "0" ? "5.0" : "40.0"));
     const std::string log = files.file("log" + point + ".lcmlog");
     ASSERT_EQ(twin({"simulate", scene, "--duration", "8", "--output", log}).status, 0);
-    const nlohmann::json told =
+    const nlohmann::json report =
         twin({"monitor", scene, log, "--settings", settings, "--json"}).json();
     std::map<std::string, double> raised;
-    for (const auto& alert : told["alerts"]) {
+    for (const auto& alert : report["alerts"]) {
       ++raised[alert["type"].get<std::string>()];
     }
     const nlohmann::json measures = counted.json()["measures"];
-    EXPECT_EQ(measures["all"], static_cast<double>(told["alerts"].size())) << told["alerts"];
+    EXPECT_EQ(measures["all"], static_cast<double>(report["alerts"].size())) << report["alerts"];
     EXPECT_EQ(measures["band"], raised["IN_CRITICAL_BAND"]);
     EXPECT_EQ(measures["wide"], raised["WHIRL_AMPLITUDE"]);
     most = std::max(most, measures["all"].get<double>());

@@ -158,15 +158,15 @@ TEST(Acquisition, OfAGrowingFileEveryRowArrivesOnceByLcm) {
 }
 
 TEST(Acquisition, OfAGrowingFileEveryRowArrivesOnceInPython) {
-  const TemporaryLog file, told;
+  const TemporaryLog file, output;
   const std::string command = kPython + file.path() + " probes --plain --quiet " + kQuiet + " > " +
-                              told.path() + " 2>/dev/null";
+                              output.path() + " 2>/dev/null";
   ASSERT_EQ(runBeside(file.path(), command), 0);
-  EXPECT_EQ(rowsOfJson(told.path()), allRows());
+  EXPECT_EQ(rowsOfJson(output.path()), allRows());
 }
 
 TEST(Acquisition, OfAPipeEveryRowArrivesOnce) {
-  const TemporaryLog file, log, told;
+  const TemporaryLog file, log, output;
   {
     std::ofstream out(file.path());
     for (const std::string& text : allTexts()) {
@@ -180,21 +180,21 @@ TEST(Acquisition, OfAPipeEveryRowArrivesOnce) {
       0);
   EXPECT_EQ(rowsOf(log.path()), allRows());
   ASSERT_EQ(
-      std::system((cat + kPython + "- probes --plain > " + told.path() + " 2>/dev/null").c_str()),
+      std::system((cat + kPython + "- probes --plain > " + output.path() + " 2>/dev/null").c_str()),
       0);
-  EXPECT_EQ(rowsOfJson(told.path()), allRows());
+  EXPECT_EQ(rowsOfJson(output.path()), allRows());
 }
 
 TEST(Acquisition, TwoColumnsOfOneNameEndTheAdapters) {
-  const TemporaryLog file, log, told;
+  const TemporaryLog file, log, output;
   std::ofstream(file.path()) << "time,x[m],y[m],x[mm],y[m]\n0,1,2,3,4\n";
   const std::string to = " 'file://" + log.path() + "?mode=w'";
   for (const std::string& command : {std::string(CSV_TO_LCM) + " " + file.path() + " probes" + to,
                                      kPython + file.path() + " probes --plain"}) {
-    const int status = std::system((command + " > /dev/null 2> " + told.path()).c_str());
+    const int status = std::system((command + " > /dev/null 2> " + output.path()).c_str());
     EXPECT_EQ(WEXITSTATUS(status), 2) << command;
     std::stringstream said;
-    said << std::ifstream(told.path()).rdbuf();
+    said << std::ifstream(output.path()).rdbuf();
     EXPECT_EQ(said.str(),
               "line 1: columns 2 and 4 are called x\nline 1: columns 3 and 5 are called y\n");
   }

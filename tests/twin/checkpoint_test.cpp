@@ -43,16 +43,16 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
 
 /// Numbers of a rotor's whirl and of energies, which the past of the motion is in.
 std::vector<double> toldBy(const Observer& observer) {
-  std::vector<double> told;
+  std::vector<double> observed;
   for (std::size_t i = 0; i < observer.systemCount(); ++i) {
-    told.push_back(observer.energyResidual(i));
-    told.push_back(observer.errorEstimate(i));
+    observed.push_back(observer.energyResidual(i));
+    observed.push_back(observer.errorEstimate(i));
     if (observer.isRotor(i)) {
-      told.push_back(observer.whirlPhase(i));
-      told.push_back(observer.whirlRadius(i));
+      observed.push_back(observer.whirlPhase(i));
+      observed.push_back(observer.whirlRadius(i));
     }
   }
-  return told;
+  return observed;
 }
 
 /// A twin, and an observer of each of its steps.

@@ -214,17 +214,17 @@ TEST(LevitationScene, LiftsOffRunsUpTurnsAboutItsOwnAxisAndIsStruck) {
 TEST(LevitationScene, IsInZoneAAtEverySpeed) {
   const Scene shipped = readSceneFile(kScene);
   for (double speed = 0.0; speed <= 1500.0; speed += 150.0) {
-    const SampledMargins told = toldMargins(shipped, speed);
-    EXPECT_EQ(told.zone, SensitivityZone::kA) << speed << ": " << told.sensitivity_peak;
-    EXPECT_LT(told.bode_error, 1e-9) << speed;
+    const SampledMargins reported = toldMargins(shipped, speed);
+    EXPECT_EQ(reported.zone, SensitivityZone::kA) << speed << ": " << reported.sensitivity_peak;
+    EXPECT_LT(reported.bode_error, 1e-9) << speed;
   }
 }
 
 TEST(LevitationScene, HasTheSensitivityThatAChirpMeasures) {
   const Scene shipped = readSceneFile(kScene);
   for (const double speed : {0.0, 1500.0}) {
-    const SampledMargins told = toldMargins(shipped, speed);
-    const Chirp chirp{0.4 * told.peak_frequency, 1.6 * told.peak_frequency, 2.0};
+    const SampledMargins reported = toldMargins(shipped, speed);
+    const Chirp chirp{0.4 * reported.peak_frequency, 1.6 * reported.peak_frequency, 2.0};
     Twin twin(shaken(speed, chirp));
     std::vector<double> disturbance, shown;
     for (int i = 0; i < 50000; ++i) {
@@ -239,8 +239,8 @@ TEST(LevitationScene, HasTheSensitivityThatAChirpMeasures) {
     ASSERT_EQ(twin.status(0), StepStatus::kOk);
     double peak = 0.0;
     double where = 0.0;
-    for (double w = 0.7 * told.peak_frequency; w < 1.3 * told.peak_frequency;
-         w += 0.005 * told.peak_frequency) {
+    for (double w = 0.7 * reported.peak_frequency; w < 1.3 * reported.peak_frequency;
+         w += 0.005 * reported.peak_frequency) {
       Complex of_disturbance = 0.0;
       Complex of_shown = 0.0;
       for (std::size_t k = 0; k < shown.size(); ++k) {
@@ -254,8 +254,8 @@ TEST(LevitationScene, HasTheSensitivityThatAChirpMeasures) {
         where = w;
       }
     }
-    EXPECT_NEAR(peak, told.sensitivity_peak, 0.02 * told.sensitivity_peak) << speed;
-    EXPECT_NEAR(where, told.peak_frequency, 0.02 * told.peak_frequency) << speed;
+    EXPECT_NEAR(peak, reported.sensitivity_peak, 0.02 * reported.sensitivity_peak) << speed;
+    EXPECT_NEAR(where, reported.peak_frequency, 0.02 * reported.peak_frequency) << speed;
     EXPECT_GT(peak, 1.2) << speed;
   }
 }

@@ -24,7 +24,7 @@ struct FollowedRun {
   explicit FollowedRun(const Scene& scene)
       : twin(scene), observer(twin), orders(twin), record(twin.layout().size) {}
 
-  void until(double time, const std::function<void(const state::OrderState&)>& told) {
+  void until(double time, const std::function<void(const state::OrderState&)>& published) {
     std::vector<std::size_t> all(twin.systems().size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i] = i;
@@ -39,7 +39,7 @@ struct FollowedRun {
           motion[observer.stations(i)[k]].push_back(observer.whirlOf(i, k));
         }
       }
-      orders.tell(observer, all, [&](const std::string&, auto make) { told(make()); });
+      orders.tell(observer, all, [&](const std::string&, auto make) { published(make()); });
     }
   }
 
@@ -184,7 +184,7 @@ TEST(OrderObserver, TellsTheSameWhicheverRecordsTheObserverSees) {
   Observer every(twin), some(twin);
   OrderObserver all(twin), passed(twin);
   std::vector<double> record(twin.layout().size);
-  int told = 0;
+  int published = 0;
   while (twin.seconds(twin.stepCount()) < 3.0) {
     twin.step();
     twin.write(record.data());
@@ -207,10 +207,10 @@ TEST(OrderObserver, TellsTheSameWhicheverRecordsTheObserverSees) {
       EXPECT_EQ(both[0].at.step, both[1].at.step);
       EXPECT_EQ(both[0].forward_amplitude, both[1].forward_amplitude);
       EXPECT_EQ(both[0].line_frequency, both[1].line_frequency);
-      ++told;
+      ++published;
     }
   }
-  EXPECT_EQ(told, 60);  // 20 a second
+  EXPECT_EQ(published, 60);  // 20 a second
 }
 
 }  // namespace order_observer_test
