@@ -8,7 +8,7 @@
 #include "analysis/orbit.h"
 #include "mechanics/linear_rotor.h"
 #include "mechanics/rotors/rotor_assembly.h"
-#include "plots/chart.h"
+#include "reports/figure.h"
 
 namespace whirl_twin {
 

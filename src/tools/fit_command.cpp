@@ -9,6 +9,7 @@
 #include "estimation/shooting_fit.h"
 #include "messages/input_error.h"
 #include "reports/csv_table.h"
+#include "reports/drawings.h"
 #include "reports/fit_report.h"
 #include "reports/measured_file.h"
 #include "scene/scene_reader.h"
@@ -111,9 +112,11 @@ int fit(const FitRequest& request) {
   if (request.output) {
     writeScene(study, fit, *request.output);
   }
+  Drawings drawings;
   for (std::size_t run = 0; request.plot && run < study.runs.size(); ++run) {
-    writePicture(pictureOf(*request.plot, study, run), figure(study, fit, run));
+    drawings.add(pictureOf(*request.plot, study, run), figureJson(figure(study, fit, run)));
   }
+  drawings.write();
   if (request.csv) {
     writeCsv(*request.csv, tables(fit));
   }

@@ -3,6 +3,7 @@
 
 #include "messages/input_error.h"
 #include "reports/csv_table.h"
+#include "reports/drawings.h"
 #include "reports/loop_report.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
@@ -50,12 +51,14 @@ int loopsOf(const LoopRequest& request) {
     throw InputError(request.scene + ": controllers: expected at least one, found none");
   }
   const LoopReport report = loopReport(scene, request.speed);
+  Drawings drawings;
   for (const LoopedController& controller : report.controllers) {
     if (request.plot && !controller.responses.empty()) {
-      writePicture(pictureName(*request.plot, controller.spec->name, report.controllers.size() > 1),
-                   figure(controller));
+      drawings.add(pictureName(*request.plot, controller.spec->name, report.controllers.size() > 1),
+                   figureJson(figure(controller)));
     }
   }
+  drawings.write();
   return printReport(request.json, json(report), text(report));
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reports/csv_table.h"
+#include "reports/drawings.h"
 #include "reports/output.h"
 #include "reports/rotor_systems.h"
 #include "scene/built_scene.h"
@@ -43,15 +44,18 @@ int reportRotors(const ReportOptions& options, const BuiltScene& scene,
   all["scene"] = scene.scene.name;
   std::string words;
   CsvTables csv;
+  Drawings drawings;
   for (const RotorSystem& rotor : rotors) {
     const auto report = make(rotor);
     all["systems"][rotor.name] = json(report);
     append(csv, rotor.name, tables(report));
     words += (words.empty() ? "" : "\n") + text(report);
     if (options.plot) {
-      writePicture(pictureName(*options.plot, rotor.name, rotors.size() > 1), draw(report));
+      drawings.add(pictureName(*options.plot, rotor.name, rotors.size() > 1),
+                   figureJson(draw(report)));
     }
   }
+  drawings.write();
   return printReport(options, all, words, csv);
 }
 
