@@ -78,7 +78,7 @@ Json chartJson(const Chart& chart) {
       {"equal_aspect", chart.equal_aspect}};
 }
 
-std::string axisText(const ChartAxis& axis) {
+std::string axisLabels(const ChartAxis& axis) {
   return axis.second ? fmt::format("{}, {}", axis.label, axis.second->label) : axis.label;
 }
 
@@ -86,8 +86,8 @@ std::string descriptionOf(const Figure& figure) {
   std::string text;
   for (const Chart& chart : figure.charts) {
     text += fmt::format("{}{}{} over {}:", text.empty() ? "" : "; ",
-                        chart.title.empty() ? "" : chart.title + ": ", axisText(chart.y),
-                        axisText(chart.x));
+                        chart.title.empty() ? "" : chart.title + ": ", axisLabels(chart.y),
+                        axisLabels(chart.x));
     const char* separator = " ";
     for (const Series& series : chart.series) {
       if (!series.name.empty()) {
@@ -106,12 +106,12 @@ std::string descriptionOf(const Figure& figure) {
   return text;
 }
 
-Json pointJson(const SketchPoint& point) {
+Json spotJson(const SketchPoint& point) {
   return {numberOf(point.x), numberOf(point.y), numberOf(point.z)};
 }
 
 Json pathJson(const std::vector<SketchPoint>& path) {
-  return listJson(path, pointJson);
+  return listJson(path, spotJson);
 }
 
 const char* roleName(SketchRole role) {
@@ -133,9 +133,8 @@ const char* roleName(SketchRole role) {
 /// Of parts from one point to another with a radius.
 template <class Part>
 Json barJson(const Part& part) {
-  return {{"from", pointJson(part.from)},
-          {"to", pointJson(part.to)},
-          {"radius", numberOf(part.radius)}};
+  return {
+      {"from", spotJson(part.from)}, {"to", spotJson(part.to)}, {"radius", numberOf(part.radius)}};
 }
 
 Json sketchJson(const Sketch& sketch) {
@@ -145,23 +144,23 @@ Json sketchJson(const Sketch& sketch) {
     return json;
   };
   const auto ball = [](const Sketch::Ball& part) -> Json {
-    return {{"at", pointJson(part.at)},
+    return {{"at", spotJson(part.at)},
             {"radius", numberOf(part.radius)},
             {"role", roleName(part.role)}};
   };
   const auto disc = [](const Sketch::Disc& part) -> Json {
-    return {{"at", pointJson(part.at)},        {"axis", pointJson(part.axis)},
+    return {{"at", spotJson(part.at)},         {"axis", spotJson(part.axis)},
             {"radius", numberOf(part.radius)}, {"thickness", numberOf(part.thickness)},
             {"angle", numberOf(part.angle)},   {"role", roleName(part.role)}};
   };
   const auto box = [](const Sketch::Box& part) -> Json {
-    return {{"at", pointJson(part.at)},
-            {"size", pointJson(part.size)},
+    return {{"at", spotJson(part.at)},
+            {"size", spotJson(part.size)},
             {"pitch", numberOf(part.pitch)},
             {"role", roleName(part.role)}};
   };
   const auto arrow = [](const Sketch::Arrow& part) -> Json {
-    return {{"from", pointJson(part.from)}, {"to", pointJson(part.to)}};
+    return {{"from", spotJson(part.from)}, {"to", spotJson(part.to)}};
   };
   const auto line = [](const Sketch::Line& part) -> Json {
     return {{"points", pathJson(part.points)}, {"role", roleName(part.role)}};
@@ -176,7 +175,7 @@ Json sketchJson(const Sketch& sketch) {
           {"lines", listJson(sketch.lines, line)},
           {"size", numberOf(sketch.size)},
           {"height", numberOf(sketch.height)},
-          {"centre", pointJson(sketch.centre)},
+          {"centre", spotJson(sketch.centre)},
           {"spatial", sketch.spatial}};
 }
 

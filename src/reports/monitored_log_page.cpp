@@ -144,7 +144,9 @@ Figure bode(const OrderCourse& orders) {
   Chart amplitude, lag, polar;
   amplitude.x = lag.x = {"speed of the shaft (rad/s)", false, true};
   amplitude.y = {"amplitude (m)", false, false};
-  lag.y = {"lag behind the phase mark (deg)", false, false};
+  lag.y.label = "lag behind the phase mark (deg)";
+  lag.y.degrees = true;
+  lag.y.inverted = true;
   amplitude.series = {{"", orders.speed, orders.amplitude}};
   lag.series = {{"", orders.speed, inDegrees(orders.lag)}};
   Series turned;

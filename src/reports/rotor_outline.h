@@ -31,6 +31,7 @@ std::vector<Series> rotorOutline(const FlexibleShaft& shaft, double scale, doubl
 struct OrbitChart {
   Chart chart;
   bool along_shaft = false;  ///< else across it
+  Chart plane;               ///< the widest of them across the shaft, with equal axes
 };
 
 /// The instant at which the shaft is drawn along the orbits: of a response as its phase mark passes
