@@ -1,0 +1,1 @@
+"""Digital twins of rotors and pendulums."""
