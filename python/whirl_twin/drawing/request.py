@@ -233,7 +233,7 @@ SKETCH = record({
     "size": (number_or_gap, 1.0), "height": _POSITIVE, "centre": (point, (0.0, 0.0, 0.0)),
     "spatial": _NO,
 })
-_SHEET = {"kind": text, "title": _TEXT}
+_SHEET = {"kind": text, "title": _TEXT, "description": _TEXT}
 FIGURES = {
     "charts": record({
         **_SHEET, "columns": (whole(1, 12), 1), "width": (whole(200, 5000), 800),
