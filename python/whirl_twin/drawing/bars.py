@@ -75,7 +75,7 @@ def _sheet(chart: dict, names: list, height: float):
     top = style.title_space(chart["title"], _WIDTH)
     subtitle, size = style.fitted(chart["subtitle"], style.TICK, _WIDTH - 20.0)
     subtitle_height = 4.0 + style.height_of(subtitle, size) if subtitle else 0.0
-    rows = len(style.legend_rows(names, width))
+    rows = style.legend_rows(names, width)
     plot_top = top + subtitle_height + style.LEGEND_ROW * rows + 8.0
     sheet = style.sheet(
         _WIDTH, plot_top + height + _FOOT, chart["title"],
