@@ -48,7 +48,7 @@ class _Layout:
         self.rows = style.legend_rows(self.names, width - 70.0)
         self.extra = style.LEGEND_ROW * max(0, self.rows - _FREE_LEGEND_ROWS)
         self.title, self.title_size = style.fitted(
-            chart["title"], style.CHART_TITLE, width - 20.0, True)
+            chart["title"], style.CHART_TITLE, max(width - 140.0, 0.75 * width), True)
         self.x, self.y = _range(chart, "x"), _range(chart, "y")
         self.legend_height = style.LEGEND_ROW * self.rows + (6.0 if self.rows else 0.0)
         title = 11.0 + style.height_of(self.title, self.title_size) if self.title else 8.0
@@ -107,7 +107,7 @@ def draw_charts(figure: dict, ax=None):
             layout = _Layout(charts[0], width + 70.0, height + 90.0)
             _finish_equal(layout, width, height)
             layout.finish_x(width)
-            _draw_chart(ax, layout, width, True)
+            _draw_chart(ax, layout, width, width, True)
             if not layout.title and figure["title"]:
                 ax.set_title(figure["title"], size=style.CHART_TITLE * PX, weight="bold",
                              pad=(layout.legend_height + layout.above + 6.0) * PX, y=1.0)
@@ -146,7 +146,7 @@ def _place_chart(
     _finish_equal(layout, width, height)
     layout.finish_x(width)
     ax = style.add_axes(sheet, cell_left + left, cell_top + layout.top, width, height)
-    _draw_chart(ax, layout, cell - 70.0, False)
+    _draw_chart(ax, layout, cell - 70.0, cell - left - 10.0, False)
 
 
 def _finish_equal(layout: _Layout, width: float, height: float) -> None:
@@ -161,7 +161,9 @@ def _finish_equal(layout: _Layout, width: float, height: float) -> None:
         )
 
 
-def _draw_chart(ax, layout: _Layout, legend_width: float, clip: bool) -> None:
+def _draw_chart(
+    ax, layout: _Layout, legend_width: float, legend_space: float, clip: bool
+) -> None:
     """All of a chart; `clip`: marks end at the frame, as axes that can be zoomed need."""
     chart = layout.chart
     _set_axes(ax, layout)
@@ -199,7 +201,7 @@ def _draw_chart(ax, layout: _Layout, legend_width: float, clip: bool) -> None:
     handles += [Patch(facecolor=band["color"], edgecolor=style.GREY, linewidth=0.6)
                 for band in chart["bands"] if band["name"]]
     if layout.names:
-        style.add_legend(ax, handles, layout.names, legend_width, layout.above + 7.0)
+        style.add_legend(ax, handles, layout.names, legend_width, layout.above + 7.0, legend_space)
     ax.set_xlim(layout.x[::-1] if chart["x"]["inverted"] else layout.x)
     ax.set_ylim(layout.y[::-1] if chart["y"]["inverted"] else layout.y)
     label_chart(ax, chart, curves)

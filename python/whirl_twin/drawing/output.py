@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import re
-import warnings
 from html import escape
 
 from . import style
@@ -19,8 +18,7 @@ def image(figure, format: str) -> bytes:
         return svg(figure).encode("utf-8")
     file = io.BytesIO()
     title = figure.whirl_twin_title
-    with style.context(), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # letters that the font does not have
+    with style.context():
         if format == "pdf":
             thin(figure, style.DPI, False)
             figure.savefig(file, format="pdf", dpi=_PNG_DPI, metadata={
@@ -35,8 +33,7 @@ def image(figure, format: str) -> bytes:
 def svg(figure, prefix: str = "") -> str:
     """An SVG document; its identifiers begin with `prefix`, so that a page can hold several."""
     file = io.StringIO()
-    with style.context(), warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with style.context():
         thin(figure, style.DPI, False)
         figure.savefig(file, format="svg", dpi=_PNG_DPI, metadata={"Date": None, "Creator": None})
     text = file.getvalue()

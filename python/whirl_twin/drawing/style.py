@@ -5,7 +5,9 @@ from __future__ import annotations
 import contextlib
 import contextvars
 import functools
+import math
 import textwrap
+import warnings
 from typing import Iterator, List, Optional, Tuple
 
 import matplotlib
@@ -93,7 +95,9 @@ def context() -> Iterator[None]:
         yield
         return
     token = _applied.set(True)
-    with matplotlib.rc_context():
+    with matplotlib.rc_context(), warnings.catch_warnings():
+        # Letters that the font does not have: an SVG shows them all the same.
+        warnings.filterwarnings("ignore", message="Glyph")
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(
             {name: value for name, value in _SETTINGS.items() if name in matplotlib.rcParams}
@@ -236,15 +240,23 @@ def legend_rows(names: List[str], width: float) -> int:
     return max((row + 1 for row, _ in legend_places(names, width)), default=0)
 
 
-def add_legend(ax, handles: list, names: List[str], width: float, above: float) -> None:
-    """A legend in rows above the axes, `above` [px] over their upper edge; it covers no curve."""
+def add_legend(
+    ax, handles: list, names: List[str], width: float, above: float, space: float = math.inf
+) -> None:
+    """A legend in rows above the axes, `above` [px] over their upper edge; it covers no curve.
+
+    It begins at their left edge, or so far left of it that it ends `space` [px] right of it.
+    """
     from matplotlib.legend import Legend
     from matplotlib.transforms import ScaledTranslation
 
     rows = legend_rows(names, width)
-    for handle, name, (row, x) in zip(handles, names, legend_places(names, width)):
+    places = legend_places(names, width)
+    needed = max(x + SAMPLE + 8.0 + text_width(name, TICK) for name, (_, x) in zip(names, places))
+    left = min(0.0, space - min(needed, width))
+    for handle, name, (row, x) in zip(handles, names, places):
         up = above + LEGEND_ROW * (rows - 1 - row)
-        shift = ScaledTranslation(x / DPI, up / DPI, ax.figure.dpi_scale_trans)
+        shift = ScaledTranslation((left + x) / DPI, up / DPI, ax.figure.dpi_scale_trans)
         text, size = fitted(name, TICK, max(width - SAMPLE - 8.0, 60.0))
         entry = Legend(
             ax, [handle], [text], loc="lower left", bbox_to_anchor=(0.0, 1.0),
