@@ -45,7 +45,6 @@ def axes_of(*charts, **more):
 
 def labels(axis):
     """Texts of the visible tick labels."""
-    axis.figure.canvas.draw() if hasattr(axis.figure.canvas, "draw") else None
     low, high = sorted(axis.get_view_interval())
     slack = 1e-6 * (high - low)
     return [label.get_text() for tick, label in zip(axis.get_majorticklocs(), axis.get_ticklabels())

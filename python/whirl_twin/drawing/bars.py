@@ -59,6 +59,8 @@ def draw_bars(chart: dict, ax=None):
         handles = [Patch(facecolor=color, edgecolor=style.darker(color, 0.3), linewidth=0.8 * PX)
                    for color in (_COLORS[k % len(_COLORS)] for k in range(len(names)))]
         style.add_legend(ax, handles, names, width, 7.0)
+    if sheet is None:
+        style.add_axes_title(ax, chart["title"], names, width)
     return ax.figure if sheet is None else sheet
 
 

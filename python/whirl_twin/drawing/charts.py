@@ -19,7 +19,7 @@ _RIGHT = 22.0  # px
 _FOOT = 50.0  # px, of tick labels and label below a chart
 _PER_TICK = 30.0  # px, at least, along a vertical axis
 _MANY_MARKS = 2000
-_FREE_LEGEND_ROWS = 3  # more make a chart higher instead of its curves lower
+_FREE_LEGEND_ROWS = 2  # more make a chart higher instead of its curves lower
 
 
 def pen_of(series: dict, index: int) -> dict:

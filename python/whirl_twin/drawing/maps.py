@@ -57,7 +57,9 @@ def draw_map(chart: dict, ax=None):
         handles.append(Patch(facecolor=style.HOLE, edgecolor=style.GREY, linewidth=0.6))
         names.append(HOLE_NAME)
     bar_ax = None
-    if ax is None:
+    if ax is not None:
+        style.add_axes_title(ax, chart["title"], names, style.size_of(ax)[0])
+    else:
         sheet, ax, bar_ax = _sheet(chart, y, names)
     _set_axes(ax, chart, x, y)
     # As pixels in an SVG too: ten thousand cells as paths are a megabyte.

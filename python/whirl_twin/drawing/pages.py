@@ -7,6 +7,8 @@ from typing import List
 
 from jinja2 import Environment, PackageLoader
 
+from .request import RequestError
+
 # Of a cell that begins like a number: it is aligned to the right.
 _NUMBER = re.compile("[-+−±]? ?[0-9]")
 
@@ -15,11 +17,14 @@ def html(page: dict) -> str:
     """The contents of the file of a checked page."""
     figures = 0
     parts = []
-    for part in page["parts"]:
+    for i, part in enumerate(page["parts"]):
         content = part["content"]
         if part["kind"] == "figure":
             figures += 1
-            content = _inlined(content, figures)
+            try:
+                content = _inlined(content, figures)
+            except RequestError as error:
+                raise RequestError(f"page.parts[{i}].{error}") from error
         elif part["kind"] == "table":
             content = {**content, "numeric": _numeric_columns(content)}
         parts.append({"kind": part["kind"], "content": content})

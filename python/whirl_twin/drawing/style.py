@@ -236,6 +236,12 @@ def legend_places(names: List[str], width: float) -> List[Tuple[int, float]]:
     return [(i // columns, column * (i % columns)) for i in range(len(names))]
 
 
+def add_axes_title(ax, title: str, names: List[str], width: float) -> None:
+    """A title over a legend, on axes of the caller."""
+    ax.set_title(title, size=CHART_TITLE * PX, weight="bold", color=BLACK, y=1.0,
+                 pad=(LEGEND_ROW * legend_rows(names, width) + 12.0) * PX)
+
+
 def legend_rows(names: List[str], width: float) -> int:
     return max((row + 1 for row, _ in legend_places(names, width)), default=0)
 
