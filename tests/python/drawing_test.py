@@ -498,8 +498,10 @@ class Program(unittest.TestCase):
             self.assertEqual(error.count("\n"), 1, error)
 
     def test_an_unwritable_path_is_named(self):
-        status, error = run({"drawings": [{"path": "/nonexistent/x.svg", "format": "svg", "figure": figure()}]})
-        self.assertEqual((status, error), (1, "/nonexistent/x.svg: cannot be written: No such file or directory\n"))
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "missing", "x.svg")
+            status, error = run({"drawings": [{"path": path, "format": "svg", "figure": figure()}]})
+        self.assertEqual((status, error), (1, f"{path}: cannot be written: No such file or directory\n"))
 
     def test_a_missing_library_is_named_with_its_package(self):
         for module, kind, content, text in (
@@ -507,12 +509,14 @@ class Program(unittest.TestCase):
                  "install python3-matplotlib\n"),
                 ("jinja2", "html", {"page": {"title": "t"}}, "pages need python3-jinja2: sudo apt-get install "
                  "python3-jinja2\n")):
-            program = f"import sys; sys.modules['{module}'] = None; from whirl_twin.drawing.__main__ import main; sys.exit(main())"
+            program = (f"import sys; sys.modules['{module}'] = None; from whirl_twin.drawing.__main__ import main; "
+                       "sys.exit(main())")
             request = {"drawings": [{"path": os.devnull, "format": kind, **content}]}
             self.assertEqual(run(request, "-c", program), (1, text))
 
     def test_importing_the_package_imports_no_library(self):
-        program = "import sys, whirl_twin.drawing; print([m for m in ('numpy', 'matplotlib', 'jinja2') if m in sys.modules])"
+        program = ("import sys, whirl_twin.drawing; print([m for m in ('numpy', 'matplotlib', 'jinja2') "
+                   "if m in sys.modules])")
         done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
         self.assertEqual(done.stdout, "[]\n")
 
