@@ -79,8 +79,8 @@ class _Layout:
     def finish_x(self, width: float) -> None:
         """Ends of the x axis for a width of the plot [px]."""
         if not self.chart["x"]["tight"] and not self.chart["equal_aspect"]:
-            ticks = ticks_of(
-                self.chart["x"], *self.x, most_across(self.chart["x"], width, *self.x, inside=False))
+            most = most_across(self.chart["x"], width, *self.x, inside=False)
+            ticks = ticks_of(self.chart["x"], *self.x, most)
             self.x = (ticks[0], ticks[-1])
 
 

@@ -145,15 +145,17 @@ def label_chart(ax, chart: dict, curves: List[Tuple[np.ndarray, float, bool, boo
             _note(ax, places, x, y, note)
 
 
-def _annotate(ax, text: str, at, coordinates, shift, rotated: bool, color: str, covers: bool, **more):
-    """A text whose middle is `shift` [px] from a point."""
+def _annotate(
+    ax, text: str, at, coordinates, shift, rotated: bool, color: str, covers: bool, **more
+) -> None:
+    """A text whose middle is `shift` [px] from a point; on white where it covers something."""
+    white = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.5}
     ax.annotate(
         text, xy=at, xycoords=coordinates, xytext=(shift[0] * style.PX, -shift[1] * style.PX),
         textcoords="offset points", ha="center", va="center_baseline" if not rotated else "center",
         rotation=90 if rotated else 0, size=style.NOTE * style.PX, color=color, zorder=5,
         rotation_mode="anchor", annotation_clip=False,
-        bbox={"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.5} if covers else None,
-        **more,
+        bbox=white if covers else None, **more,
     )
 
 
