@@ -177,8 +177,8 @@ def _label_upright(ax, places: LabelPlaces, x: float, line: dict) -> None:
     while not beside or y + length < places.height:
         beside += [(x - 3.0 - HEIGHT, y, HEIGHT, length), (x + 3.0, y, HEIGHT, length)]
         y += 10.0
-    for away in (3.0, 20.0, 40.0, 60.0):
-        for y in range(5, 66, 10):
+    for away in (3.0, 12.0, 24.0):  # farther away it would be ambiguous
+        for y in range(5, max(6, int(places.height - HEIGHT)), 10):
             beside += [(x + away, y, length, HEIGHT), (x - away - length, y, length, HEIGHT)]
     _place_label(ax, places, line, beside, (line["at"], 1.0), ("data", "axes fraction"), (x, 0.0))
 
