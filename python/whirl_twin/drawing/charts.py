@@ -79,8 +79,8 @@ class _Layout:
     def finish_x(self, width: float) -> None:
         """Ends of the x axis for a width of the plot [px]."""
         if not self.chart["x"]["tight"] and not self.chart["equal_aspect"]:
-            ticks = ticks_of(
-                self.chart["x"], *self.x, most_across(self.chart["x"], width, *self.x, inside=False))
+            most = most_across(self.chart["x"], width, *self.x, inside=False)
+            ticks = ticks_of(self.chart["x"], *self.x, most)
             self.x = (ticks[0], ticks[-1])
 
 
@@ -174,7 +174,7 @@ def _draw_chart(
         if high > low:
             ax.axvspan(low, high, facecolor=band["color"], edgecolor="none", zorder=0.2)
     reference = {"color": style.GREY, "linewidth": 1.2 * PX, "linestyle": style.dash_of([6.0, 4.0]),
-                 "zorder": 0.9}
+                 "zorder": 1.5}
     for i, series in enumerate(chart["series"]):
         x = shown(series["x"], chart["x"]["logarithmic"])
         y = shown(series["y"], chart["y"]["logarithmic"])
@@ -189,8 +189,11 @@ def _draw_chart(
         if series["name"]:
             handles.append(Patch(facecolor=series["fill"], edgecolor=style.GREY, linewidth=0.6)
                            if series["fill"] else Line2D([], [], **_look(series, pen)))
-        curves.append((np.column_stack((x, y)), pen["width"],
-                       series["line"] and not series["fill"], series["marks"] != "none"))
+        spots = np.column_stack((x, y))
+        if series["fill"] and len(spots):
+            spots = np.vstack((spots, spots[:1]))  # a label is not across its border
+        curves.append((spots, pen["width"], series["line"] or series["fill"] is not None,
+                       series["marks"] != "none"))
     # After the curves: ax.lines[i] is the series i.
     for line in chart["vertical"]:
         if layout.x[0] <= line["at"] <= layout.x[1]:

@@ -155,7 +155,7 @@ def _set_bar(bar, chart: dict, limits: Tuple[float, float]) -> None:
     fields = {"logarithmic": False, "degrees": False}
     bar.ax.yaxis.set_major_locator(Ticks(fields, lambda a, b: 9))
     bar.ax.yaxis.set_major_formatter(TickLabels(False))
-    bar.ax.tick_params(length=4.0 * PX, color=style.GREY, labelsize=style.TICK * PX, labelleft=False)
+    bar.ax.tick_params(length=4.0 * PX, color=style.GREY, labelsize=style.TICK * PX)
     bar.ax.minorticks_off()
     bar.ax.yaxis.get_offset_text().set_size(style.TICK * PX)
     bar.ax.yaxis.get_offset_text().set_color(style.BLACK)
