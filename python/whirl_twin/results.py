@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import html
-import json
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -38,11 +37,11 @@ def data_frame(columns: Mapping[str, Any], **options: Any) -> "pandas.DataFrame"
 
 def drawn(figure: dict[str, Any], ax: "matplotlib.axes.Axes | None") -> "matplotlib.figure.Figure":
     """The figure of a description. Raises RunError where matplotlib is not installed."""
+    from .drawing import MissingLibrary, draw
     try:
-        from .drawing import draw
-    except ImportError as error:
-        raise RunError(f"plot: needs matplotlib: install python3-matplotlib ({error})") from None
-    return draw(figure, ax)
+        return draw(figure, ax)
+    except MissingLibrary as error:
+        raise RunError(str(error)) from error
 
 
 class Section(Mapping):
@@ -171,7 +170,7 @@ class Result(Section):
         if name is not None and name not in figures:
             raise InputError(f"plot: no figure '{name}'" + near(str(name), figures))
         index = 0 if name is None else figures.index(name)
-        return drawn(json.loads(self._document.figure(index)), ax)
+        return drawn(self._document.figure(index), ax)
 
     def __str__(self) -> str:
         return self.text

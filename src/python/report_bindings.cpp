@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "python/conversions.h"
-#include "python/figure_text.h"
 #include "python/listening.h"
 #include "python/scene_object.h"
 #include "requests/document.h"
@@ -55,11 +54,11 @@ py::list figuresOf(const Document& document) {
   return names;
 }
 
-py::str figureOf(const Document& document, std::size_t index) {
+py::object figureOf(const Document& document, std::size_t index) {
   if (index >= document.drawings.size()) {
     throw py::index_error("no such figure");
   }
-  return pythonText(figureText(document.drawings[index].draw()));
+  return pythonOf(document.drawings[index].draw());
 }
 
 }  // namespace

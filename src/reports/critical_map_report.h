@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "analysis/undamped_critical_speeds.h"
-#include "plots/chart.h"
 #include "reports/csv_table.h"
+#include "reports/figure.h"
 #include "reports/rotor_systems.h"
 
 namespace whirl_twin {

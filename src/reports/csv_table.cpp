@@ -8,6 +8,7 @@
 
 #include "messages/csv_cell.h"
 #include "messages/input_error.h"
+#include "reports/drawings.h"
 #include "reports/output.h"
 
 namespace whirl_twin {
@@ -81,10 +82,9 @@ void requirePictureName(const std::optional<std::string>& path) {
   if (!path) {
     return;
   }
-  const std::string extension = std::filesystem::path(*path).extension().string();
-  if (extension != ".svg" && extension != ".png") {
-    throw InputError(
-        fmt::format("--plot: expected a name that ends in .svg or .png, found '{}'", *path));
+  if (figureFormat(*path).empty()) {
+    throw InputError(fmt::format(
+        "--plot: expected a name that ends in .svg, .png, .pdf or .json, found '{}'", *path));
   }
 }
 
@@ -96,10 +96,6 @@ std::string pictureName(const std::string& path, const std::string& system, bool
   name.replace_filename(
       fmt::format("{}_{}{}", name.stem().string(), system, name.extension().string()));
   return name.string();
-}
-
-void writePicture(const std::string& path, const Figure& figure) {
-  writeFile(path, figureImage(figure, imageFormat(path)));
 }
 
 }  // namespace whirl_twin

@@ -1,12 +1,11 @@
 // Files that a command writes beside its report: tables of comma-separated values (RFC 4180), --csv
-// FILE.csv; a picture, --plot FILE.svg or FILE.png.
+// FILE.csv; a figure, --plot FILE.svg, FILE.png, FILE.pdf or FILE.json.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "plots/chart.h"
 #include "reports/output.h"
 
 namespace whirl_twin {
@@ -29,13 +28,10 @@ void requireCsvName(const std::optional<std::string>& path);
 /// Writes them all. Throws RunFailure. Files appear only when they are complete.
 void writeCsv(const std::string& path, const CsvTables& tables);
 
-/// Throws InputError unless the name ends in .svg or .png, before anything is computed.
+/// Throws InputError unless the name is one of a figure, before anything is computed.
 void requirePictureName(const std::optional<std::string>& path);
 
 /// FILE.svg of one system of several: FILE_SYSTEM.svg.
 std::string pictureName(const std::string& path, const std::string& system, bool several);
-
-/// Throws RunFailure. The file appears only when it is complete.
-void writePicture(const std::string& path, const Figure& figure);
 
 }  // namespace whirl_twin

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "estimation/shooting_fit.h"
-#include "plots/chart.h"
 #include "reports/csv_table.h"
+#include "reports/figure.h"
 
 namespace whirl_twin {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "analysis/cross_coupling_margin.h"
-#include "plots/chart.h"
 #include "reports/csv_table.h"
+#include "reports/figure.h"
 #include "reports/rotor_systems.h"
 
 namespace whirl_twin {

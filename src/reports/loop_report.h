@@ -7,7 +7,7 @@
 
 #include "analysis/sampled_margins.h"
 #include "analysis/sampled_stability.h"
-#include "plots/chart.h"
+#include "reports/figure.h"
 #include "reports/output.h"
 #include "scene/scene.h"
 

@@ -9,8 +9,8 @@
 
 #include "analysis/whirl_modes.h"
 #include "estimation/mode_pairing.h"
-#include "plots/chart.h"
 #include "reports/csv_table.h"
+#include "reports/figure.h"
 #include "reports/rotor_record.h"
 #include "reports/rotor_systems.h"
 #include "signal/ambient_modes.h"

@@ -11,8 +11,9 @@
 #include "messages/alert.h"
 #include "messages/states.h"
 #include "monitoring/alarm_settings.h"
-#include "plots/chart.h"
 #include "reports/csv_table.h"
+#include "reports/figure.h"
+#include "reports/report_page.h"
 #include "scene/built_scene.h"
 #include "signal/passed_resonance.h"
 #include "signal/spectrum_cascade.h"
@@ -92,8 +93,7 @@ Json json(const MonitoredLog& run);
 CsvTables tables(const MonitoredLog& run);
 /// Speed, whirl and margin of a system over one time axis, its alerts behind them.
 Figure figure(const MonitoredLog& run, const SystemCourse& system);
-/// A page with all of it, pictures inside: nothing else is needed to read or print it. Throws
-/// RunFailure.
-std::string page(const MonitoredLog& run);
+/// A page with all of it, figures inside.
+ReportPage page(const MonitoredLog& run);
 
 }  // namespace whirl_twin

@@ -12,15 +12,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kLogPageStyle =
-    "body{font:15px/1.5 sans-serif;color:#21212a;max-width:60em;margin:2em auto;padding:0 1em}"
-    "table{border-collapse:collapse;margin:1em 0}"
-    "th,td{text-align:left;padding:.25em .8em;border-bottom:1px solid #ddd;vertical-align:top}"
-    "td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}"
-    ".danger{color:#b5330a;font-weight:bold}.warning{color:#8a5a00;font-weight:bold}"
-    "svg{max-width:100%;height:auto}h2{margin-top:2em}"
-    "@media print{h2{break-before:page}table,svg{break-inside:avoid}}";
-
 std::string numberOnPage(double x) {
   return std::isfinite(x) ? fmt::format("{:.6g}", x) : "–";
 }
@@ -66,14 +57,11 @@ bool any(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
 }
 
-/// A table of what the run-ups have passed; "" without.
-std::string resonancesPart(const SystemCourse& system) {
+void addResonances(const SystemCourse& system, ReportPage& page) {
   if (system.resonances.empty()) {
-    return "";
+    return;
   }
-  std::string out =
-      "<h3>Resonances passed</h3>\n<table><tr><th>at, s</th><th>speed, rad/s</th><th>1X, m</th>"
-      "<th>amplification factor</th><th>model: speed, rad/s</th><th>model: factor</th></tr>\n";
+  std::vector<std::vector<std::string>> rows;
   for (const PassedResonance& resonance : system.resonances) {
     const ResponsePeak& peak = resonance.peak;
     const std::string factor =
@@ -81,17 +69,19 @@ std::string resonancesPart(const SystemCourse& system) {
         : peak.slow
             ? numberOnPage(*peak.amplification_factor)
             : numberOnPage(*peak.amplification_factor) + " (passed too fast: underestimated)";
-    out += fmt::format(
-        "<tr><td class=\"n\">{:.3f}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-        "<td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
-        peak.time, numberOnPage(peak.speed), numberOnPage(peak.amplitude), factor,
-        numberOnPage(resonance.model_speed), numberOnPage(resonance.model_factor));
+    rows.push_back({fmt::format("{:.3f}", peak.time), numberOnPage(peak.speed),
+                    numberOnPage(peak.amplitude), factor, numberOnPage(resonance.model_speed),
+                    numberOnPage(resonance.model_factor)});
   }
-  return out + "</table>\n";
+  page.part("Resonances passed");
+  page.table({"at, s", "speed, rad/s", "1X, m", "amplification factor", "model: speed, rad/s",
+              "model: factor"},
+             rows);
 }
 
-std::string onNextLine(const std::string& text) {
-  return text.empty() ? "" : "<br>" + text;
+/// The time of the run, and the date where the log has one.
+std::string withDate(const std::string& time, const std::string& date) {
+  return date.empty() ? time : time + "\n" + date;
 }
 
 /// The last turns, with a dot wherever the phase mark of the shaft passes the x axis.
@@ -118,9 +108,8 @@ Chart orbitOfLastTurns(const SystemCourse& system) {
   return chart;
 }
 
-/// Cascade, full spectrum and orbit, and what their lines are; "" where the states are too few.
-/// Counts the pictures of the page.
-std::string spectraPart(const SystemCourse& system, int& pictures) {
+/// Cascade, full spectrum and orbit, and their lines; nothing where the states are too few.
+void addSpectra(const SystemCourse& system, ReportPage& page) {
   Figure figure;
   figure.width = 940;
   figure.chart_height = 460;
@@ -134,21 +123,16 @@ std::string spectraPart(const SystemCourse& system, int& pictures) {
     figure.charts.push_back(orbitOfLastTurns(system));
   }
   if (figure.charts.empty()) {
-    return "";
+    return;
   }
-  std::string out = inlinedPicture(figure, ++pictures) + "\n";
-  std::string said = subsynchronousText(system.spectra);
+  page.picture(figure);
+  const std::string remark = subsynchronousText(system.spectra);
   if (system.spectrum && !system.spectrum->lines.empty()) {
-    std::string lines;
-    for (const SpectrumLine& line : system.spectrum->lines) {
-      lines += (lines.empty() ? "" : "; ") + lineText(line);
-    }
-    said = "Components of the full spectrum: " + lines + "." +
-           (said.empty() ? "" : " Remark: " + said + ".");
-  } else if (!said.empty()) {
-    said = "Note: " + said + ".";
+    page.text("Components of the full spectrum: " + joined(system.spectrum->lines, lineText, "; ") +
+              "." + (remark.empty() ? "" : " Remark: " + remark + "."));
+  } else if (!remark.empty()) {
+    page.text("Note: " + remark + ".");
   }
-  return out + (said.empty() ? "" : fmt::format("<p>{}</p>\n", escapedForHtml(said)));
 }
 
 Figure bode(const OrderCourse& orders) {
@@ -160,7 +144,9 @@ Figure bode(const OrderCourse& orders) {
   Chart amplitude, lag, polar;
   amplitude.x = lag.x = {"speed of the shaft (rad/s)", false, true};
   amplitude.y = {"amplitude (m)", false, false};
-  lag.y = {"lag behind the phase mark (deg)", false, false};
+  lag.y.label = "lag behind the phase mark (deg)";
+  lag.y.degrees = true;
+  lag.y.inverted = true;
   amplitude.series = {{"", orders.speed, orders.amplitude}};
   lag.series = {{"", orders.speed, inDegrees(orders.lag)}};
   Series turned;
@@ -216,75 +202,78 @@ Figure figure(const MonitoredLog& run, const SystemCourse& system) {
   return figure;
 }
 
-std::string notOkPart(const MonitoredLog& run) {
-  std::string rows;
-  for (const SystemCourse& system : run.systems) {
-    for (const NotOkCourse& course : system.not_ok) {
-      rows += fmt::format(
-          "<tr><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td><td>{}</td></tr>\n",
-          numberOnPage(course.begin), numberOnPage(course.end), escapedForHtml(system.name),
-          escapedForHtml(course.why));
-    }
+namespace {
+
+void addAlerts(const MonitoredLog& run, ReportPage& page) {
+  page.section("Alerts");
+  if (run.alerts.empty()) {
+    page.text("None.");
+    return;
   }
-  return rows.empty() ? ""
-                      : "<h2>Monitoring gaps</h2>\n<table><tr><th>from, s</th><th>to, s</th>"
-                        "<th>system</th><th>why</th></tr>\n" +
-                            rows + "</table>\n";
+  std::vector<std::vector<Json>> rows;
+  for (const AlertCourse& alert : run.alerts) {
+    const char* severity = className(alert.worst.severity);
+    const std::string cleared =
+        std::isnan(alert.cleared) ? "–" : fmt::format("{:.3f}", alert.cleared);
+    rows.push_back({withDate(fmt::format("{:.3f}", alert.raised), alert.raised_at),
+                    withDate(cleared, alert.cleared_at),
+                    Json{{"text", severity}, {"class", severity}}, alert.worst.type,
+                    alert.worst.system, alert.worst.text});
+  }
+  page.cells({"raised, s", "cleared, s", "severity", "alert", "system", "message"}, rows);
 }
 
-std::string page(const MonitoredLog& run) {
-  std::string out = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<title>{0}: {1}</title>\n<style>{2}</style></head><body>\n<h1>{0}</h1>\n"
-      "<p>{1}: t = {3:g} to {4:g} s of simulated time, {5} messages replayed, {6} rejected, {7} "
-      "corrupt places, {8} resets.</p>\n",
-      escapedForHtml(run.scene), escapedForHtml(run.log), kLogPageStyle, run.begin, run.end,
-      run.watched, run.rejected, run.damaged, run.resets);
-  out += "<h2>Alerts</h2>\n";
-  if (run.alerts.empty()) {
-    out += "<p>None.</p>\n";
-  } else {
-    out +=
-        "<table><tr><th>raised, s</th><th>cleared, s</th><th>severity</th><th>alert</th>"
-        "<th>system</th><th>message</th></tr>\n";
-    for (const AlertCourse& alert : run.alerts) {
-      out += fmt::format(
-          "<tr><td class=\"n\">{:.3f}{}</td><td class=\"n\">{}{}</td><td class=\"{}\">{}</td>"
-          "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
-          alert.raised, onNextLine(alert.raised_at),
-          std::isnan(alert.cleared) ? "–" : fmt::format("{:.3f}", alert.cleared),
-          onNextLine(alert.cleared_at), className(alert.worst.severity),
-          className(alert.worst.severity), escapedForHtml(alert.worst.type),
-          escapedForHtml(alert.worst.system), escapedForHtml(alert.worst.text));
-    }
-    out += "</table>\n";
-  }
-  out += notOkPart(run);
-  out +=
-      "<h2>Margins</h2>\n<table><tr><th>system</th><th>least decay rate, 1/s</th><th>at, s</th>"
-      "<th>at speed, rad/s</th><th>verdict there</th></tr>\n";
+void addGaps(const MonitoredLog& run, ReportPage& page) {
+  std::vector<std::vector<std::string>> rows;
   for (const SystemCourse& system : run.systems) {
-    out += fmt::format(
-        "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-        "<td>{}</td></tr>\n",
-        escapedForHtml(system.name), numberOnPage(system.least_decay_rate),
-        numberOnPage(system.least_at), numberOnPage(system.least_at_speed),
-        system.least_verdict.empty() ? "not evaluated" : escapedForHtml(system.least_verdict));
-  }
-  out += "</table>\n";
-  int pictures = 0;
-  for (const SystemCourse& system : run.systems) {
-    const Figure drawn = figure(run, system);
-    if (!drawn.charts.empty()) {
-      out += fmt::format("<h2>{}</h2>\n{}\n", escapedForHtml(system.name),
-                         inlinedPicture(drawn, ++pictures));
-      if (!system.orders.speed.empty()) {
-        out += inlinedPicture(bode(system.orders), ++pictures) + "\n";
-      }
-      out += resonancesPart(system) + spectraPart(system, pictures);
+    for (const NotOkCourse& course : system.not_ok) {
+      rows.push_back(
+          {numberOnPage(course.begin), numberOnPage(course.end), system.name, course.why});
     }
   }
-  return out + "</body></html>\n";
+  if (!rows.empty()) {
+    page.section("Monitoring gaps");
+    page.table({"from, s", "to, s", "system", "why"}, rows);
+  }
+}
+
+void addMargins(const MonitoredLog& run, ReportPage& page) {
+  std::vector<std::vector<std::string>> rows;
+  for (const SystemCourse& system : run.systems) {
+    rows.push_back({system.name, numberOnPage(system.least_decay_rate),
+                    numberOnPage(system.least_at), numberOnPage(system.least_at_speed),
+                    system.least_verdict.empty() ? "not evaluated" : system.least_verdict});
+  }
+  page.section("Margins");
+  page.table({"system", "least decay rate, 1/s", "at, s", "at speed, rad/s", "verdict there"},
+             rows);
+}
+
+}  // namespace
+
+ReportPage page(const MonitoredLog& run) {
+  ReportPage page(run.scene);
+  page.text(fmt::format(
+      "{}: t = {:g} to {:g} s of simulated time, {} messages replayed, {} rejected, {} corrupt "
+      "places, {} resets.",
+      run.log, run.begin, run.end, run.watched, run.rejected, run.damaged, run.resets));
+  addAlerts(run, page);
+  addGaps(run, page);
+  addMargins(run, page);
+  for (const SystemCourse& system : run.systems) {
+    const Figure courses = figure(run, system);
+    if (courses.charts.empty()) {
+      continue;
+    }
+    page.section(system.name);
+    page.picture(courses);
+    if (!system.orders.speed.empty()) {
+      page.picture(bode(system.orders));
+    }
+    addResonances(system, page);
+    addSpectra(system, page);
+  }
+  return page;
 }
 
 }  // namespace whirl_twin

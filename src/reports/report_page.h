@@ -1,10 +1,12 @@
-// A report as one HTML page with its pictures inside: it opens without a network, and prints.
+// A page of text, tables and figures, which becomes one HTML file: it opens without a network, and
+// prints (reports/drawings.h).
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "plots/chart.h"
+#include "reports/figure.h"
+#include "reports/output.h"
 
 namespace whirl_twin {
 
@@ -12,28 +14,27 @@ class ReportPage {
  public:
   explicit ReportPage(const std::string& title);
 
+  /// Below the title, in small print: scene file, date, version.
+  void fact(const std::string& name, const std::string& value);
+  /// A line of the box at the top.
+  void summary(const std::string& line);
   void section(const std::string& title);
   void part(const std::string& title);  ///< of a section
-  void text(const std::string& words);
+  void text(const std::string& text);
   void list(const std::vector<std::string>& lines);
-  /// Cells that begin like numbers stand to the right.
+  /// A table. A cell is a string, or an object of `text` and `class`: danger, warning or info.
+  /// Cells that begin like numbers are aligned to the right.
+  void cells(const std::vector<std::string>& head, const std::vector<std::vector<Json>>& rows);
   void table(const std::vector<std::string>& head,
              const std::vector<std::vector<std::string>>& rows);
   void picture(const Figure& figure);
 
-  /// The whole file.
-  std::string finish() const;
+  const Json& json() const { return page_; }
 
  private:
-  std::string title_, body_;
-  int pictures_ = 0;
+  void add(const char* kind, Json content);
+
+  Json page_;
 };
-
-/// Text between tags: their characters as entities, control characters as spaces.
-std::string escapedForHtml(const std::string& text);
-
-/// A picture for a page that has several: SVG whose names are its own, `number` among them. Cairo
-/// calls the letters of each picture glyph-0-0, glyph-0-1 ..., and a page knows one of a name.
-std::string inlinedPicture(const Figure& figure, int number);
 
 }  // namespace whirl_twin

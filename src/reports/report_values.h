@@ -12,7 +12,7 @@
 
 #include "analysis/routh.h"
 #include "mechanics/rotors/rotor_assembly.h"
-#include "plots/chart.h"
+#include "reports/figure.h"
 #include "reports/output.h"
 
 namespace whirl_twin {

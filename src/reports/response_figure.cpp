@@ -183,6 +183,7 @@ Figure figure(const ResponseReport& r) {
   lag.x = {"shaft speed (rad/s)", false, true};
   lag.y.label = "lag behind the phase mark (deg)";
   lag.y.degrees = true;
+  lag.y.inverted = true;  // as machinists draw it
   polar.x.label = "along the shaft's phase mark (m)";
   polar.y.label = "ahead of the phase mark (m)";
   polar.title = "forward whirl in the shaft's frame";
@@ -229,6 +230,9 @@ Figure figure(const OrbitReport& r) {
   figure.title = fmt::format("{}: orbits at {}{}", r.system->title(), speedName(r.response.speed),
                              beyondMark(r.system->tables(), r.response.speed));
   figure.charts = {orbits.chart};
+  if (orbits.along_shaft) {
+    figure.charts.push_back(orbits.plane);
+  }
   figure.width = orbits.along_shaft ? 900 : 640;
   figure.chart_height = orbits.along_shaft ? 460 : 640;
   return figure;

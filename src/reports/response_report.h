@@ -9,8 +9,8 @@
 #include "analysis/critical_speeds.h"
 #include "analysis/frequency_response.h"
 #include "analysis/synchronous_response.h"
-#include "plots/chart.h"
 #include "reports/csv_table.h"
+#include "reports/figure.h"
 #include "reports/rotor_systems.h"
 
 namespace whirl_twin {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numeric>
 
 #include "algebra/constants.h"
 
@@ -54,7 +55,8 @@ double shaftRadiusAt(const FlexibleShaft& shaft, int node) {
 }
 
 constexpr int kOrbitPoints = 181;
-constexpr std::size_t kMaxOrbits = 24;  // along a shaft
+constexpr std::size_t kMaxOrbits = 24;   // along a shaft
+constexpr std::size_t kPlaneOrbits = 6;  // in one plane, as many as colours differ well
 
 /// One turn of the shaft, from an angle of it on [rad]: x along, y up [m].
 Series orbitPath(const Orbit& orbit, double start) {
@@ -139,17 +141,26 @@ Chart orbitsAlongShaft(const std::vector<Orbit>& orbits, const std::vector<Stati
   return chart;
 }
 
-Chart orbitsInOnePlane(const std::vector<Orbit>& orbits, const std::vector<Station>& stations) {
+/// A dot on each where the shaft's phase mark passes x, as a keyphasor marks it on a screen.
+Chart orbitsInOnePlane(const std::vector<Orbit>& orbits, const std::vector<Station>& stations,
+                       const std::string& unit) {
+  std::vector<std::size_t> widest(orbits.size());
+  std::iota(widest.begin(), widest.end(), std::size_t{0});
+  std::stable_sort(widest.begin(), widest.end(), [&](std::size_t a, std::size_t b) {
+    return orbits[a].major() > orbits[b].major();
+  });
+  widest.resize(std::min(widest.size(), kPlaneOrbits));
+  std::sort(widest.begin(), widest.end());
   Chart chart;
-  chart.x.label = "x";
-  chart.y.label = "y";
+  chart.x.label = fmt::format("x ({})", unit);
+  chart.y.label = fmt::format("y ({})", unit);
   chart.equal_aspect = true;
-  for (std::size_t i = 0; i < orbits.size(); ++i) {
+  for (const std::size_t i : widest) {
     Series path = orbitPath(orbits[i], 0.0);  // where the shaft's mark passes x
     path.name = fmt::format("{}, {}", stations[i].name, name(orbits[i].direction()));
     chart.series.push_back(path);
   }
-  Series starts{"", {}, {}, Pen{ink::kBlack, 1.2}};
+  Series starts{"phase mark passes x", {}, {}, Pen{ink::kBlack, 1.2}};
   for (const Series& path : chart.series) {
     starts.x.push_back(path.x.front());
     starts.y.push_back(path.y.front());
@@ -253,11 +264,11 @@ OrbitChart orbitChart(const std::vector<Orbit>& orbits, const std::vector<Statio
   const std::vector<std::size_t> order = orderAlongShaft(stations);
   OrbitChart drawn;
   drawn.along_shaft = !order.empty();
-  drawn.chart = drawn.along_shaft ? orbitsAlongShaft(orbits, stations, order, instant)
-                                  : orbitsInOnePlane(orbits, stations);
-  drawn.chart.y.label += fmt::format(" ({})", unit);
-  if (!drawn.along_shaft) {
-    drawn.chart.x.label += fmt::format(" ({})", unit);
+  drawn.plane = orbitsInOnePlane(orbits, stations, unit);
+  drawn.chart = drawn.plane;
+  if (drawn.along_shaft) {
+    drawn.chart = orbitsAlongShaft(orbits, stations, order, instant);
+    drawn.chart.y.label += fmt::format(" ({})", unit);
   }
   return drawn;
 }

@@ -8,7 +8,7 @@
 #include "analysis/orbit.h"
 #include "mechanics/linear_rotor.h"
 #include "mechanics/rotors/rotor_assembly.h"
-#include "plots/chart.h"
+#include "reports/figure.h"
 
 namespace whirl_twin {
 
@@ -31,6 +31,7 @@ std::vector<Series> rotorOutline(const FlexibleShaft& shaft, double scale, doubl
 struct OrbitChart {
   Chart chart;
   bool along_shaft = false;  ///< else across it
+  Chart plane;               ///< the widest of them across the shaft, with equal axes
 };
 
 /// The instant at which the shaft is drawn along the orbits: of a response as its phase mark passes

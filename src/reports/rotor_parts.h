@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mechanics/rotors/rotor_assembly.h"
-#include "plots/chart.h"
+#include "reports/figure.h"
 #include "reports/rotor_sheet.h"
 
 namespace whirl_twin {

@@ -25,6 +25,7 @@ namespace {
 constexpr std::size_t kModesDrawn = 6;
 constexpr std::size_t kMaxModes = 12;
 constexpr std::size_t kBranches = 12;
+constexpr double kNear = 0.15;  // of a running speed: a critical speed to be named at the top
 
 std::string numberOrDash(double value) {
   return std::isfinite(value) ? fmt::format("{:.5g}", value) : "–";
@@ -44,7 +45,7 @@ class RotorReport {
         speed_(request.speed.value_or(system.highest_speed)),
         page_(fmt::format("{}, {}: rotor dynamics", scene.scene.name, system.name)) {}
 
-  std::string page() {
+  ReportPage page() {
     start();
     if (system_.shaft) {
       drawing();
@@ -60,7 +61,7 @@ class RotorReport {
     attempt("Unbalance response", [this] { response(); });
     attempt("Stability, level I", [this] { levelOne(); });
     rest();
-    return page_.finish();
+    return page_;
   }
 
  private:
@@ -82,6 +83,25 @@ class RotorReport {
   const BuiltSystem& built() const {
     return **std::find_if(scene_.systems.begin(), scene_.systems.end(),
                           [&](const SharedSystem& one) { return one->spec.name == system_.name; });
+  }
+
+  bool inRange(double speed) const {
+    return speed >= (1.0 - kNear) * system_.lowest_speed &&
+           speed <= (1.0 + kNear) * system_.highest_speed;
+  }
+
+  /// For the box at the top: the crossings within kNear of the running speeds.
+  void summarizeCrossings(const std::vector<CampbellCrossing>& crossings) {
+    std::vector<std::string> near;
+    for (const CampbellCrossing& c : crossings) {
+      if (inRange(c.speed)) {
+        near.push_back(
+            fmt::format("{:.5g} rad/s ({} rpm, {})", c.speed, rpm(c.speed), name(c.mode.whirl)));
+      }
+    }
+    page_.summary(fmt::format("Critical speeds within {:g} % of the running speeds: {}.",
+                              100.0 * kNear,
+                              near.empty() ? "none" : fmt::format("{}", fmt::join(near, "; "))));
   }
 
   void start() {
@@ -190,6 +210,11 @@ class RotorReport {
                       mode.eigenvalue.real() > 0.0 ? "grows" : "decays"});
     }
     page_.table({"mode", "whirl", "rad/s", "rpm", "damping ratio", "log. decrement", ""}, rows);
+    const auto growing =
+        std::count_if(report.model.begin(), report.model.end(),
+                      [](const WhirlMode& mode) { return mode.eigenvalue.real() > 0.0; });
+    page_.summary(fmt::format("Whirl modes at {:.5g} rad/s ({} rpm): {}.", speed_, rpm(speed_),
+                              growing == 0 ? "none grows" : fmt::format("{} grow", growing)));
     page_.picture(figure(report, kModesDrawn));
     if (report.model.size() > kMaxModes) {
       missing_.push_back(fmt::format("Whirl modes: {} are listed, of {} computed (`twin modes`)",
@@ -201,6 +226,7 @@ class RotorReport {
     const CampbellReport report =
         campbellReport(system_, SpeedRangeOptions{}.of(system_), {1.0}, kBranches);
     page_.picture(figure(report));
+    summarizeCrossings(report.diagram.crossings);
     std::vector<std::vector<std::string>> rows;
     for (const CampbellCrossing& crossing : report.diagram.crossings) {
       rows.push_back({numberOrDash(crossing.speed), rpm(crossing.speed), name(crossing.mode.whirl),
@@ -226,11 +252,13 @@ class RotorReport {
         responseReport(system_, SpeedRangeOptions{}.of(system_), std::nullopt);
     page_.picture(figure(report));
     std::vector<std::vector<std::string>> rows;
+    std::size_t too_near = 0;
     for (const CriticalSpeed& peak : report.peaks) {
       const state::CriticalSpeedMargin margin = criticalSpeedMargin(
           speed_, peak.speed, peak.forward ? "forward" : "backward", peak.amplification_factor);
       const bool damped = !(peak.amplification_factor >= kCriticallyDampedAmplification);
       const bool near = margin.separation_margin < margin.required_separation_margin;
+      too_near += !damped && near;
       rows.push_back(
           {numberOrDash(peak.speed), rpm(peak.speed), margin.direction, numberOrDash(peak.peak),
            std::isinf(peak.amplification_factor) ? "undamped"
@@ -241,6 +269,9 @@ class RotorReport {
                   : "met"});
       rows.back().back() += beyondMark(system_.tables(), peak.speed);
     }
+    page_.summary(fmt::format("Separation margins at {:.5g} rad/s: {}.", speed_,
+                              too_near == 0 ? "met at every peak of the response"
+                                            : fmt::format("too small at {} peaks", too_near)));
     page_.part(fmt::format("Amplification factors and separation margins at {:.5g} rad/s", speed_));
     if (rows.empty()) {
       page_.text("The response has no peak in the range.");
@@ -283,6 +314,8 @@ class RotorReport {
       return;
     }
     const std::vector<std::string> reasons = report.reasons();
+    page_.summary(reasons.empty() ? "Stability, level I: met"
+                                  : "Stability, level I: level II is required");
     page_.text(reasons.empty()
                    ? "Q_0/Q_A is 2 or more and the log. decrement at Q_A 0.1 or more. API 617 may "
                      "still require level II below Q_0/Q_A = 10, by its chart over the gas "
@@ -309,8 +342,8 @@ class RotorReport {
 
 }  // namespace
 
-std::string rotorReportPage(const BuiltScene& scene, const RotorSystem& system,
-                            const RotorReportRequest& request) {
+ReportPage rotorReportPage(const BuiltScene& scene, const RotorSystem& system,
+                           const RotorReportRequest& request) {
   speedOption("--speed", request.speed.value_or(0.0));
   return RotorReport(scene, system, request).page();
 }

@@ -1,9 +1,11 @@
 // The page of `twin report`: all analyses of a rotor, for print.
 #pragma once
 
-#include <string>
+#include <optional>
+#include <vector>
 
 #include "reports/level_one_report.h"
+#include "reports/report_page.h"
 #include "reports/rotor_systems.h"
 #include "scene/built_scene.h"
 
@@ -14,8 +16,8 @@ struct RotorReportRequest {
   std::vector<Stage> stages;
 };
 
-/// The page (HTML). Its end lists the parts that are left out for the rotor, with the reason.
-std::string rotorReportPage(const BuiltScene& scene, const RotorSystem& system,
-                            const RotorReportRequest& request);
+/// The page. Its end lists the parts that are left out for the rotor, with the reason.
+ReportPage rotorReportPage(const BuiltScene& scene, const RotorSystem& system,
+                           const RotorReportRequest& request);
 
 }  // namespace whirl_twin

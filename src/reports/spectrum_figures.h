@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "plots/chart.h"
+#include "reports/figure.h"
 #include "signal/spectrum_cascade.h"
 
 namespace whirl_twin {

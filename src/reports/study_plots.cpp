@@ -9,10 +9,7 @@
 #include <utility>
 
 #include "algebra/constants.h"
-#include "plots/bar_chart.h"
-#include "plots/chart.h"
-#include "plots/response_map.h"
-#include "plots/ticks.h"
+#include "reports/figure.h"
 #include "reports/study_report.h"
 
 namespace whirl_twin {
@@ -89,18 +86,22 @@ Figure MeasurePlots::histogram() const {
   const Distributed& d = answers_.measures[place_];
   // A few that are far away do not leave the rest in one class.
   const double fence = kFence * (d.percentiles.back() - d.percentiles.front());
-  const double low = std::max(d.smallest, d.percentiles.front() - fence);
-  const double high = std::min(d.largest, d.percentiles.back() + fence);
-  const AxisRange range = high > low ? AxisRange{low, high} : widened({low, low});
+  double low = std::max(d.smallest, d.percentiles.front() - fence);
+  double high = std::min(d.largest, d.percentiles.back() + fence);
+  if (!(high > low)) {  // one value: a class of some width
+    const double half = low == 0.0 ? 0.5 : 0.1 * std::fabs(low);
+    high = low + half;
+    low -= half;
+  }
   const auto classes = static_cast<std::size_t>(std::clamp(
       std::ceil(std::sqrt(static_cast<double>(d.count))), 1.0, static_cast<double>(kMaxClasses)));
-  const double width = (range.high - range.low) / static_cast<double>(classes);
+  const double width = (high - low) / static_cast<double>(classes);
   const auto last = static_cast<double>(classes - 1);
   std::vector<double> counts(classes);
   std::uint64_t beyond = 0;
   for (const double value : values_) {
-    if (value >= range.low && value <= range.high) {
-      const double at = (value - range.low) / width;  // not a number where the range is endless
+    if (value >= low && value <= high) {
+      const double at = (value - low) / width;  // not a number where the range is endless
       ++counts[at > 0.0 ? static_cast<std::size_t>(std::min(at, last)) : 0];
     } else if (std::isfinite(value)) {
       ++beyond;
@@ -120,17 +121,17 @@ Figure MeasurePlots::histogram() const {
       series->y.push_back(y);
     }
   };
-  to(range.low, 0.0);
+  to(low, 0.0);
   for (std::size_t k = 0; k < classes; ++k) {
-    to(range.low + width * static_cast<double>(k), counts[k]);
-    to(range.low + width * static_cast<double>(k + 1), counts[k]);
-    to(range.low + width * static_cast<double>(k + 1), 0.0);
+    to(low + width * static_cast<double>(k), counts[k]);
+    to(low + width * static_cast<double>(k + 1), counts[k]);
+    to(low + width * static_cast<double>(k + 1), 0.0);
   }
   chart.series = {bars, edges};
   const double top = *std::max_element(counts.begin(), counts.end());
   for (const Requirement& r : required_) {
-    const double reach = 0.5 * (range.high - range.low);
-    if (r.limit > range.low - reach && r.limit < range.high + reach) {
+    const double reach = 0.5 * (high - low);
+    if (r.limit > low - reach && r.limit < high + reach) {
       Series limit{
           fmt::format("required: {}", text(r, study_)), {r.limit, r.limit}, {0.0, 1.05 * top}};
       limit.pen = Pen{ink::kVermilion, 2.4};
@@ -373,7 +374,7 @@ std::optional<ResponseMap> MeasurePlots::map() const {
 }  // namespace
 
 std::vector<StudyPlot> studyPlots(const Study& study, const StudyTable& table,
-                                  const Answers& answers, ImageFormat format) {
+                                  const Answers& answers) {
   std::vector<StudyPlot> plots;
   for (std::size_t k = 0; k < study.measures.size(); ++k) {
     if (answers.measures[k].count == 0) {
@@ -381,13 +382,13 @@ std::vector<StudyPlot> studyPlots(const Study& study, const StudyTable& table,
     }
     const MeasurePlots of(study, table, answers, k);
     const std::string& name = study.measures[k].name;
-    plots.push_back({name, "histogram", figureImage(of.histogram(), format)});
-    plots.push_back({name, "scatter", figureImage(of.scatter(), format)});
+    plots.push_back({name, "histogram", figureJson(of.histogram())});
+    plots.push_back({name, "scatter", figureJson(of.scatter())});
     if (const auto tornado = of.tornado()) {
-      plots.push_back({name, "tornado", barImage(*tornado, format)});
+      plots.push_back({name, "tornado", figureJson(*tornado)});
     }
     if (const auto map = of.map()) {
-      plots.push_back({name, "map", mapImage(*map, format)});
+      plots.push_back({name, "map", figureJson(*map)});
     }
   }
   return plots;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "plots/canvas.h"
+#include "reports/figure.h"
 #include "reports/output.h"
 #include "studies/answers.h"
 #include "studies/optimizer.h"
@@ -42,11 +42,11 @@ Json json(const Study& study, const Optimum& optimum);
 struct StudyPlot {
   std::string measure;  ///< its name
   std::string kind;     ///< "histogram", "scatter", "tornado" or "map"
-  std::string image;    ///< the file
+  Json figure;
 };
 
-/// Of every measure, in the study's order; none of one that is finite nowhere. Throws RunFailure.
+/// Of every measure, in the study's order; none of one that is finite nowhere.
 std::vector<StudyPlot> studyPlots(const Study& study, const StudyTable& table,
-                                  const Answers& answers, ImageFormat format);
+                                  const Answers& answers);
 
 }  // namespace whirl_twin

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "algebra/constants.h"
-#include "plots/chart.h"
-#include "plots/ticks.h"
+#include "reports/figure.h"
 #include "twin/ensemble_observer.h"
 
 namespace whirl_twin {
@@ -354,16 +353,16 @@ Figure ensembleFigure(const Ensemble& ensemble, const PlotHistory& history) {
 }
 
 std::vector<SystemPlot> systemPlots(const BuiltSystem& system, const Ensemble* ensemble,
-                                    const PlotHistory& history, ImageFormat format) {
+                                    const PlotHistory& history) {
   const std::string title = fmt::format("{} ({})", system.spec.name, system.spec.model);
   std::vector<SystemPlot> plots;
   const auto picture = motionPicture(title, *system.dynamics, history);
   if (picture && fitsASheet(*picture)) {
-    plots.push_back({"picture", sketchImage(*picture, format)});
+    plots.push_back({"picture", figureJson(*picture)});
   }
   const auto add = [&](const std::string& kind, const std::string& what, Figure figure) {
     figure.title = fmt::format("{}: {}", title, what);
-    plots.push_back({kind, figureImage(figure, format)});
+    plots.push_back({kind, figureJson(figure)});
   };
   add("time", "time history", timeFigure(system, history));
   add("phase", system.dynamics->isRotor() ? "orbit" : "phase portrait",

@@ -9,9 +9,7 @@
 #include <vector>
 
 #include "mechanics/dynamics.h"
-#include "plots/canvas.h"
-#include "plots/chart.h"
-#include "plots/sketch_picture.h"
+#include "reports/figure.h"
 #include "reports/sample_writer.h"
 #include "scene/built_system.h"
 #include "twin/ensemble.h"
@@ -100,13 +98,13 @@ Figure orbitFigure(const PlotHistory& history);
 std::optional<SketchPicture> shaftPicture(const Dynamics& dynamics, const PlotHistory& history);
 
 struct SystemPlot {
-  std::string kind;   ///< "picture", "time", "phase", "energy" or "ensemble"
-  std::string image;  ///< the file
+  std::string kind;  ///< "picture", "time", "phase", "energy" or "ensemble"
+  Json figure;
 };
 
 /// Its picture (where it has one), time history, phase portrait (of a rotor: orbit) and energies,
-/// and its ensemble, at the end of the run, unless that is null. Throws RunFailure.
+/// and its ensemble, at the end of the run, unless that is null.
 std::vector<SystemPlot> systemPlots(const BuiltSystem& system, const Ensemble* ensemble,
-                                    const PlotHistory& history, ImageFormat format);
+                                    const PlotHistory& history);
 
 }  // namespace whirl_twin

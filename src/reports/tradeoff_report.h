@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "accuracy/trajectory_error.h"
-#include "plots/chart.h"
+#include "reports/figure.h"
 #include "reports/output.h"
 
 namespace whirl_twin {

@@ -6,15 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "plots/chart.h"
 #include "reports/csv_table.h"
 #include "reports/output.h"
 
 namespace whirl_twin {
 
 struct Drawing {
-  std::string name;              ///< of the system or run that it shows
-  std::function<Figure()> draw;  ///< owns what it draws
+  std::string name;            ///< of the system or run that it shows
+  std::function<Json()> draw;  ///< figureJson(); owns what it shows
 };
 
 struct Document {

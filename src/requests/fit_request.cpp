@@ -8,6 +8,7 @@
 #include "estimation/fit_study_reader.h"
 #include "estimation/shooting_fit.h"
 #include "messages/input_error.h"
+#include "reports/figure.h"
 #include "reports/fit_report.h"
 #include "reports/measured_file.h"
 #include "requests/study_requests.h"
@@ -69,7 +70,7 @@ Document fitDocument(const std::string& path, const FitRequest& request, WorkPro
   document.done = fit->converged;
   for (std::size_t run = 0; run < study->runs.size(); ++run) {
     document.drawings.push_back({std::filesystem::path(study->runs[run].file).stem().string(),
-                                 [study, fit, run] { return figure(*study, *fit, run); }});
+                                 [study, fit, run] { return figureJson(figure(*study, *fit, run)); }});
   }
   return document;
 }

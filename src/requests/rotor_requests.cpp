@@ -7,6 +7,7 @@
 #include "messages/input_error.h"
 #include "reports/asked_cost.h"
 #include "reports/campbell_report.h"
+#include "reports/figure.h"
 #include "reports/modes_report.h"
 #include "reports/rotor_record.h"
 
@@ -41,7 +42,7 @@ Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const Make&
     document.json["systems"][rotor.name] = json(*report);
     append(document.tables, rotor.name, tables(*report));
     document.text += (document.text.empty() ? "" : "\n") + text(*report);
-    document.drawings.push_back({rotor.name, [of, report, draw] { return draw(*report); }});
+    document.drawings.push_back({rotor.name, [of, report, draw] { return figureJson(draw(*report)); }});
   }
   return document;
 }

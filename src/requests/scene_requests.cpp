@@ -10,6 +10,7 @@
 
 #include "messages/input_error.h"
 #include "reports/asked_cost.h"
+#include "reports/figure.h"
 #include "reports/loop_report.h"
 #include "reports/rotor_systems.h"
 #include "reports/system_analysis.h"
@@ -162,7 +163,7 @@ Document loopDocument(const Scene& scene, std::optional<double> speed) {
     const LoopedController& controller = report->controllers[i];
     if (!controller.responses.empty()) {
       document.drawings.push_back({controller.spec->name, [kept, report, i] {
-                                     return figure(report->controllers[i]);
+                                     return figureJson(figure(report->controllers[i]));
                                    }});
     }
   }

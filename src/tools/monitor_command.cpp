@@ -4,6 +4,7 @@
 
 #include "monitoring/alarm_settings_reader.h"
 #include "reports/asked_cost.h"
+#include "reports/drawings.h"
 #include "reports/monitored_log.h"
 #include "scene/scene_reader.h"
 #include "scene/signal_names.h"
@@ -82,7 +83,9 @@ int monitor(const MonitorRequest& request) {
       });
   progress.clear();
   if (request.output) {
-    writeFile(*request.output, page(run));
+    Drawings drawings;
+    drawings.addPage(*request.output, page(run).json());
+    drawings.write();
   }
   if (request.csv) {
     writeCsv(*request.csv, tables(run));

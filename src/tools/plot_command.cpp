@@ -1,14 +1,12 @@
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "messages/input_error.h"
+#include "reports/drawings.h"
 #include "reports/output.h"
 #include "reports/study_report.h"
 #include "reports/system_plots.h"
@@ -29,7 +27,7 @@ constexpr const char* kPlotDescription =
     "time\nhistory, its phase portrait and its energies. Or draws the results of a study.";
 
 constexpr const char* kPlotFooter =
-    "Files in the folder, for each system, as svg or png:\n"
+    "Files in the folder, for each system, as svg, png, pdf or json (the data of the figure):\n"
     "  NAME_picture   to scale, at the start, with later positions and the path of a point;\n"
     "                 a model given by its matrices and a whirling disc have none\n"
     "  NAME_time      its coordinates; of a rotor whirl radius, phase lag where the whirl goes "
@@ -60,33 +58,20 @@ struct PlotRequest {
   std::string format = "svg";
 };
 
-ImageFormat formatOf(const std::string& name) {
-  if (name != "svg" && name != "png") {
-    throw InputError(fmt::format("--format: must be svg or png, found '{}'", name));
-  }
-  return imageFormat("plot." + name);
+/// NAME_KIND.FORMAT in the folder.
+void add(Drawings& drawings, const PlotRequest& request, const std::string& name,
+         const std::string& kind, const Json& figure) {
+  const std::string file = fmt::format("{}_{}.{}", name, kind, request.format);
+  drawings.add((std::filesystem::path(request.folder) / file).string(), figure);
 }
 
-/// A file that is completed together with others.
-class WaitingFile {
- public:
-  WaitingFile(const std::string& path, const std::string& contents) : pending_(path), path_(path) {
-    std::ofstream file(pending_.path(), std::ios::binary);
-    file << contents;
-    file.close();
-    if (!file) {
-      throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
-    }
-  }
-  void complete() {
-    pending_.complete();
-    printText(path_ + "\n");
-  }
-
- private:
-  PendingFile pending_;
-  std::string path_;
-};
+/// Draws, and prints the names of the files.
+/// @return are there any?
+bool complete(Drawings& drawings) {
+  const std::vector<std::string> paths = drawings.write();
+  printText(joined(paths, [](const std::string& path) { return path + "\n"; }));
+  return !paths.empty();
+}
 
 /// An output folder, created with its parents if missing. Created folders are removed again unless
 /// files are written into them.
@@ -122,14 +107,7 @@ class OutputFolder {
   std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
-/// Completes all of them, or none.
-void complete(const std::vector<std::unique_ptr<WaitingFile>>& files) {
-  for (const auto& file : files) {
-    file->complete();
-  }
-}
-
-int plotStudy(const PlotRequest& request, ImageFormat format) {
+int plotStudy(const PlotRequest& request) {
   if (request.run.system || request.run.duration) {
     throw InputError(fmt::format("{}: needs a scene, found the results of a study",
                                  request.run.system ? "--system" : "--duration"));
@@ -149,14 +127,11 @@ int plotStudy(const PlotRequest& request, ImageFormat format) {
   }
   const StudyTable table = results.merge();
   const OutputFolder made(request.folder);
-  const std::filesystem::path folder = request.folder;
-  std::vector<std::unique_ptr<WaitingFile>> files;
-  for (const StudyPlot& plot : studyPlots(study, table, answersOf(study, table), format)) {
-    const std::string name = fmt::format("{}_{}.{}", plot.measure, plot.kind, request.format);
-    files.push_back(std::make_unique<WaitingFile>((folder / name).string(), plot.image));
+  Drawings drawings;
+  for (const StudyPlot& plot : studyPlots(study, table, answersOf(study, table))) {
+    add(drawings, request, plot.measure, plot.kind, plot.figure);
   }
-  complete(files);
-  if (files.empty()) {
+  if (!complete(drawings)) {
     throw RunFailure(fmt::format("{}: no measure is finite anywhere", *request.results));
   }
   return kDone;
@@ -176,16 +151,18 @@ bool isStudy(const std::string& path) {
 }
 
 int plot(const PlotRequest& request) {
-  const ImageFormat format = formatOf(request.format);
+  if (figureFormat("plot." + request.format).empty()) {
+    throw InputError(
+        fmt::format("--format: must be svg, png, pdf or json, found '{}'", request.format));
+  }
   if (request.results) {
-    return plotStudy(request, format);
+    return plotStudy(request);
   }
   if (isStudy(request.run.scene)) {
     throw InputError("--results: missing; must be the folder written by `twin sweep`");
   }
   SimulationPlan plan = planSimulation(request.run);
   const OutputFolder made(request.folder);
-  const std::filesystem::path folder = request.folder;
   plan.stride = 1 + plan.steps / kMaxSamples;
   catchInterrupts();
   Simulation simulation(plan);
@@ -194,16 +171,15 @@ int plot(const PlotRequest& request) {
   TerminalProgress progress(false);
   simulation.run(&writer, progress);
 
-  std::vector<std::unique_ptr<WaitingFile>> files;
+  Drawings drawings;
   for (std::size_t i = 0; i < plan.systems.size(); ++i) {
     const BuiltSystem& system = *simulation.twin().systems()[plan.systems[i]];
     const Ensemble* const ensemble = simulation.twin().ensemble(plan.systems[i]);
-    for (const SystemPlot& plot : systemPlots(system, ensemble, writer.histories()[i], format)) {
-      const std::string name = fmt::format("{}_{}.{}", system.spec.name, plot.kind, request.format);
-      files.push_back(std::make_unique<WaitingFile>((folder / name).string(), plot.image));
+    for (const SystemPlot& plot : systemPlots(system, ensemble, writer.histories()[i])) {
+      add(drawings, request, system.spec.name, plot.kind, plot.figure);
     }
   }
-  complete(files);
+  complete(drawings);
   return simulation.sound() ? kDone : kFailed;
 }
 
@@ -225,7 +201,8 @@ void addPlotCommand(const ProgramCommand& twin, int& status) {
       .option("--output", request->folder,
               "folder of the files, created if missing; default: the current one")
       .type("FOLDER");
-  command.option("--format", request->format, "svg or png; default: svg").type("FORMAT");
+  command.option("--format", request->format, "svg, png, pdf, or json: its data; default: svg")
+      .type("FORMAT");
   addInsistOption(command, request->run.insist);
   command.footer(kPlotFooter);
   command.callback([request, &status] { status = plot(*request); });

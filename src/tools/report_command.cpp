@@ -1,11 +1,15 @@
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "messages/input_error.h"
+#include "reports/drawings.h"
 #include "reports/rotor_report.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
@@ -25,7 +29,7 @@ constexpr const char* kReportFooter =
     "and bending moment, critical speed map. For every linear rotor: whirl modes, Campbell "
     "diagram,\n"
     "unbalance response with amplification factors and separation margins, stability level I. "
-    "Each\npage lists at its end what is left out. The pages are FOLDER/SYSTEM.html.\n"
+    "Each\npage lists at its end what is left out. The pages are\nFOLDER/SCENE_SYSTEM.html.\n"
     "\n"
     "Examples:\n"
     "  twin report friswell_rotor --output pages\n"
@@ -46,6 +50,19 @@ void makeFolder(const std::string& name) {
   }
 }
 
+/// 2026-11-28
+std::string today() {
+  return fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr)));
+}
+
+/// SCENE_SYSTEM.html: a folder may hold the pages of several scenes. A slash of a name would be a
+/// folder.
+std::string pageName(const std::string& scene, const std::string& system) {
+  std::string page = scene == system ? system : scene + "_" + system;
+  std::replace(page.begin(), page.end(), '/', '_');
+  return page + ".html";
+}
+
 int reportOf(ReportRequest& request) {
   for (const std::vector<double>& s : request.centrifugal) {
     request.report.stages.push_back({s[0], s[1], s[2], s[3], false});
@@ -55,17 +72,21 @@ int reportOf(ReportRequest& request) {
   }
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
   const auto systems = rotorSystems(scene, request.system);
-  std::vector<std::string> pages;
+  std::vector<ReportPage> pages;
   for (const RotorSystem& system : systems) {
     pages.push_back(rotorReportPage(scene, system, request.report));
+    pages.back().fact("scene", scenePath(request.scene));
+    pages.back().fact("date", today());
+    pages.back().fact("version", "whirl_twin " WHIRL_TWIN_VERSION);
   }
   makeFolder(request.output);
+  Drawings drawings;
   for (std::size_t i = 0; i < systems.size(); ++i) {
-    const std::filesystem::path path =
-        std::filesystem::path(request.output) / (systems[i].name + ".html");
-    writeFile(path.string(), pages[i]);
-    printText(path.string() + "\n");
+    const std::filesystem::path folder = request.output;
+    drawings.addPage((folder / pageName(scene.scene.name, systems[i].name)).string(),
+                     pages[i].json());
   }
+  printText(joined(drawings.write(), [](const std::string& path) { return path + "\n"; }));
   return kDone;
 }
 

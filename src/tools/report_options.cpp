@@ -34,9 +34,11 @@ int printDocument(const Document& document, bool as_json, const std::optional<st
   if (csv) {
     writeCsv(*csv, document.tables);
   }
+  Drawings files;
   for (const Drawing& drawing : plot ? document.drawings : std::vector<Drawing>{}) {
-    writePicture(pictureName(*plot, drawing.name, document.drawings.size() > 1), drawing.draw());
+    files.add(pictureName(*plot, drawing.name, document.drawings.size() > 1), drawing.draw());
   }
+  files.write();
   printReport(as_json, document.json, document.text);
   if (!document.failure.empty()) {  // for users who do not read the report
     complain("twin: " + document.failure + "\n");

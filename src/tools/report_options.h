@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reports/csv_table.h"
+#include "reports/drawings.h"
 #include "reports/output.h"
 #include "requests/document.h"
 #include "scene/scene.h"

@@ -8,6 +8,7 @@
 #include "accuracy/trajectory.h"
 #include "messages/input_error.h"
 #include "reports/csv_table.h"
+#include "reports/drawings.h"
 #include "reports/rotor_systems.h"
 #include "reports/tradeoff_report.h"
 #include "scene/scene_reader.h"
@@ -88,11 +89,14 @@ int tradeoffOf(const TradeoffRequest& request) {
     }));
   }
   bar.clear();
+  Drawings drawings;
   for (const TradeoffReport& report : reports) {
     if (request.plot) {
-      writePicture(pictureName(*request.plot, report.system, reports.size() > 1), figure(report));
+      drawings.add(pictureName(*request.plot, report.system, reports.size() > 1),
+                   figureJson(figure(report)));
     }
   }
+  drawings.write();
   if (request.output) {
     writeFile(*request.output, csv(reports));
   }

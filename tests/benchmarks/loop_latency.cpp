@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "accuracy/step_choice.h"
-#include "plots/chart.h"
 #include "realtime/fixed_rate_loop.h"
+#include "reports/drawings.h"
 #include "scene/scene_reader.h"
 #include "twin/twin.h"
 
@@ -111,11 +111,9 @@ void draw(const std::vector<Latencies>& all, const std::string& title, const std
     chart.series.push_back(curve(one));
   }
   figure.charts.push_back(chart);
-  std::ofstream out(file, std::ios::binary);
-  out << figureImage(figure, imageFormat(file)) << std::flush;
-  if (!out) {
-    throw std::runtime_error("cannot write " + file);
-  }
+  Drawings drawings;
+  drawings.add(file, figureJson(figure));
+  drawings.write();
 }
 
 int run(int argc, char** argv) {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "plots/chart.h"
 #include "realtime/denormals.h"
+#include "reports/drawings.h"
 #include "scene/scene_reader.h"
 #include "step_costs.h"
 #include "twin/twin.h"
@@ -158,12 +158,9 @@ Figure figure(const std::vector<Kind>& kinds) {
 }
 
 void writeFigure(const std::vector<Kind>& kinds, const std::string& path) {
-  const std::string image = figureImage(figure(kinds), imageFormat(path));
-  std::ofstream file(path, std::ios::binary);
-  file << image << std::flush;
-  if (!file) {
-    throw std::runtime_error("cannot write " + path);
-  }
+  Drawings drawings;
+  drawings.add(path, figureJson(figure(kinds)));
+  drawings.write();
 }
 
 int run(int argc, char** argv) {
@@ -177,7 +174,6 @@ int run(int argc, char** argv) {
       most = 1000;
     } else if (argument == "--plot" && i + 1 < argc) {
       plot = argv[++i];
-      imageFormat(plot);  // complains now and not after minutes
     } else {
       std::cerr << "usage: many_rotors_benchmark [--quick] [--plot FILE.svg|FILE.png]\n";
       return 2;

@@ -104,12 +104,12 @@ TEST(EnsembleCommands, PlotDrawsThem) {
   const TemporaryDirectory folder;
   const std::string scene = folder.write("many.yaml", kScene);
   const TemporaryDirectory pictures;
-  const Ending end = twin(
-      {"plot", scene, "--duration", "0.5", "--system", "rotor", "--output", pictures.file("")});
+  const Ending end = twin({"plot", scene, "--duration", "0.5", "--system", "rotor", "--format",
+                           "json", "--output", pictures.file("")});
   EXPECT_EQ(end.status, 0) << end.err;
-  EXPECT_EQ(pictures.files(),
-            (Lines{"rotor_energy.svg", "rotor_ensemble.svg", "rotor_phase.svg", "rotor_time.svg"}));
-  const std::string svg = contentsOf(pictures.file("rotor_ensemble.svg"));
+  EXPECT_EQ(pictures.files(), (Lines{"rotor_energy.json", "rotor_ensemble.json", "rotor_phase.json",
+                                     "rotor_time.json"}));
+  const std::string svg = contentsOf(pictures.file("rotor_ensemble.json"));
   EXPECT_NE(svg.find("5 to 95 %"), std::string::npos);
   EXPECT_NE(svg.find("samples over largest radius of a sample (m)"), std::string::npos);
 }

@@ -54,7 +54,7 @@ TEST_F(Fit, FindsWhatTheRunsWereMadeWith) {
   const std::string study =
       std::string(kRuns) + "fit: {inertia: {min: 0.0}, damping: , coulomb: {min: 0.0}}\n";
   const Ending end = fit(study, {"--json", "--output", directory_.file("fitted.yaml"), "--plot",
-                                 directory_.file("fit.svg")});
+                                 directory_.file("fit.json")});
   ASSERT_EQ(end.status, 0) << end.err;
   const nlohmann::json json = end.json();
   EXPECT_NEAR(json["parameters"]["inertia"]["value"], 0.02, 1e-6);
@@ -92,7 +92,7 @@ TEST_F(Fit, FindsWhatTheRunsWereMadeWith) {
           {"--json", "--validate-only"});
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_LT(again.json()["runs"]["swing_1.csv"]["rms"]["theta"], 1e-6);
-  EXPECT_THAT(contentsOf(directory_.file("fit_swing_2.svg")), HasSubstr("validate"));
+  EXPECT_THAT(contentsOf(directory_.file("fit_swing_2.json")), HasSubstr("validate"));
 }
 
 TEST_F(Fit, ValidateOnlyFindsStartsAlone) {

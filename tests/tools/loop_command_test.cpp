@@ -251,7 +251,7 @@ TEST(Loop, OfLevitationBearsLessDelayAtOnceThanAtEachSensor) {
 TEST(Loop, IsDrawn) {
   const TemporaryDirectory folder;
   const std::string scene = folder.write("scene.yaml", levitation(2.0, 1.4, 0.1, 0.03));
-  const std::string picture = folder.file("loop.svg");
+  const std::string picture = folder.file("loop.json");
   const Ending end = twin({"loop", scene, "--plot", picture});
   ASSERT_EQ(end.status, 0) << end.err;
   const std::string svg = contentsOf(picture);

@@ -188,10 +188,10 @@ TEST(Orbit, OfTheDemoAtItsNaturalFrequencyLagsByAQuarter) {
 TEST(Figures, OfALongRotorShowItsOrbitsAlongTheShaftAndNoMoreStationsThanColours) {
   const TemporaryDirectory folder;
   const std::string scene = WHIRL_TWIN_SOURCE "/config/scenes/nelson_mcvaugh.yaml";
-  const std::string orbits = folder.file("orbits.svg");
+  const std::string orbits = folder.file("orbits.json");
   ASSERT_EQ(twin({"orbit", scene, "--speed", "300", "--plot", orbits}).status, 0);
   EXPECT_NE(contentsOf(orbits).find("along the shaft (m)"), std::string::npos);
-  const std::string bode = folder.file("bode.svg");
+  const std::string bode = folder.file("bode.json");
   ASSERT_EQ(twin({"response", scene, "--plot", bode}).status, 0);
   EXPECT_NE(contentsOf(bode).find("7 of 19 stations"), std::string::npos);
   EXPECT_NE(contentsOf(bode).find("semi-major axis (m) over shaft speed (rad/s)"),
@@ -200,11 +200,11 @@ TEST(Figures, OfALongRotorShowItsOrbitsAlongTheShaftAndNoMoreStationsThanColours
 
 TEST(Figures, OfTheDemoHaveTheirLagsInDegrees) {
   const TemporaryDirectory folder;
-  ASSERT_EQ(
-      twin({"plot", kDemo, "--system", "rotor", "--duration", "12", "--output", folder.file("")})
-          .status,
-      0);
-  const std::string history = contentsOf(folder.file("rotor_time.svg"));
+  ASSERT_EQ(twin({"plot", kDemo, "--system", "rotor", "--duration", "12", "--format", "json",
+                  "--output", folder.file("")})
+                .status,
+            0);
+  const std::string history = contentsOf(folder.file("rotor_time.json"));
   EXPECT_NE(history.find("whirl phase lag (deg)"), std::string::npos);
   EXPECT_EQ(history.find("(rad)"), std::string::npos);
 }
@@ -232,12 +232,12 @@ TEST(RotorCommands, DrawPictures) {
   const std::vector<std::vector<std::string>> commands{
       {"campbell"}, {"response"}, {"orbit", "--speed", "50"}};
   for (std::vector<std::string> command : commands) {
-    const std::string picture = folder.file(command.front() + ".svg");
+    const std::string picture = folder.file(command.front() + ".json");
     command.insert(command.begin() + 1, kDemo);
     command.insert(command.end(), {"--plot", picture});
     const Ending end = twin(command);
     EXPECT_EQ(end.status, 0) << end.err;
-    EXPECT_EQ(contentsOf(picture).substr(0, 5), "<?xml");
+    EXPECT_EQ(Json::parse(contentsOf(picture))["kind"], "charts");
   }
 }
 
@@ -368,8 +368,9 @@ INSTANTIATE_TEST_SUITE_P(
                        "--from: expected a shaft speed from 0 to 1e+06 rad/s, found -1"},
         RefusedCommand{{"response", kDemo, "--points", "1"},
                        "--points: expected from 2 to 10000, found 1"},
-        RefusedCommand{{"response", kDemo, "--plot", "bode.pdf"},
-                       "--plot: expected a name that ends in .svg or .png, found 'bode.pdf'"},
+        RefusedCommand{{"response", kDemo, "--plot", "bode.gif"},
+                       "--plot: expected a name that ends in .svg, .png, .pdf or .json, found "
+                       "'bode.gif'"},
         RefusedCommand{{"response", kDemo, "--station", "disk"},
                        "--station: no station 'disk' on rotor (jeffcott_rotor); did you mean "
                        "'disc'?"},

@@ -53,7 +53,7 @@ TEST(Modes, AreOfTheWholeShaft) {
 
 TEST(Modes, AreDrawnInFrontOfTheShaft) {
   const TemporaryDirectory folder;
-  const std::string picture = folder.file("modes.svg");
+  const std::string picture = folder.file("modes.json");
   const Ending end = twin({"modes", kFriswell, "--speed", "100", "--plot", picture, "--modes", "2",
                            "--csv", folder.file("modes.csv")});
   ASSERT_EQ(end.status, 0) << end.err;

@@ -127,8 +127,8 @@ TEST(Report, OfAFlexibleRotorHasEveryPart) {
   const Ending end = twin({"report", kFriswell, "--output", folder.file("pages"), "--stage", "2e5",
                            "0.4", "0.015", "1.6"});
   ASSERT_EQ(end.status, 0) << end.err;
-  EXPECT_EQ(end.out, folder.file("pages") + "/rotor.html\n");
-  const std::string page = contentsOf(folder.file("pages/rotor.html"));
+  EXPECT_EQ(end.out, folder.file("pages") + "/friswell_rotor_rotor.html\n");
+  const std::string page = contentsOf(folder.file("pages/friswell_rotor_rotor.html"));
   for (const char* part :
        {"Drawing", "Mass", "At rest under its weight", "Critical speed map", "Whirl modes",
         "Campbell diagram", "Unbalance response", "Stability, level I", "Left out"}) {
@@ -147,7 +147,7 @@ TEST(Report, OfAFlexibleRotorHasEveryPart) {
 TEST(Report, HasNoNameTwice) {
   const TemporaryDirectory folder;
   ASSERT_EQ(twin({"report", kFriswell, "--output", folder.file("pages")}).status, 0);
-  const std::string page = contentsOf(folder.file("pages/rotor.html"));
+  const std::string page = contentsOf(folder.file("pages/friswell_rotor_rotor.html"));
   std::vector<std::string> names;
   for (std::size_t at = page.find(" id=\""); at != std::string::npos;
        at = page.find(" id=\"", at + 1)) {

@@ -74,7 +74,7 @@ TEST(TableSpeeds, MarkEveryResultBeyond) {
     ASSERT_EQ(end.status, 0) << end.err;
     EXPECT_NE(end.out.find("outside the tables"), std::string::npos) << command[0];
     std::vector<std::string> drawn = command;
-    const std::string picture = folder.file(command[0] + ".svg");
+    const std::string picture = folder.file(command[0] + ".json");
     drawn.insert(drawn.end(), {"--plot", picture});
     ASSERT_EQ(twin(drawn).status, 0) << command[0];
   }
@@ -146,7 +146,7 @@ TEST(FilmSpeeds, MarkResultsOfAShaftThatTouches) {
   EXPECT_TRUE(campbell["table_speeds"][1].is_null());
   EXPECT_TRUE(campbell["beyond_tables"][0]);
   EXPECT_FALSE(campbell["beyond_tables"].back());
-  EXPECT_EQ(twin({"campbell", scene, "--to", "300", "--plot", folder.file("c.svg")}).status, 0);
+  EXPECT_EQ(twin({"campbell", scene, "--to", "300", "--plot", folder.file("c.json")}).status, 0);
   EXPECT_EQ(twin({"check", scene}).out.find("beyond"), std::string::npos);
 }
 

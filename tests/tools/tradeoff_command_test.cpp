@@ -93,20 +93,20 @@ TEST(Tradeoff, WritesItsTableAndItsPicture) {
   const TemporaryDirectory directory;
   const std::string scene = directory.write("two.yaml", kTwo);
   const Ending end = twin({"tradeoff", scene, "--system", "swing", "--output",
-                           directory.file("rows.csv"), "--plot", directory.file("rows.svg")});
+                           directory.file("rows.csv"), "--plot", directory.file("rows.json")});
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_NE(end.out.find("<- recommended"), std::string::npos) << end.out;
   const std::vector<std::string> lines = linesOf(contentsOf(directory.file("rows.csv")));
   EXPECT_EQ(lines.front().substr(0, 32), "system,integrator,step,substeps,");
   EXPECT_GT(lines.size(), 40u);
-  EXPECT_EQ(contentsOf(directory.file("rows.svg")).substr(0, 5), "<?xml");
+  EXPECT_EQ(contentsOf(directory.file("rows.json")).substr(0, 8), "{\"kind\":");
 }
 
 TEST(Tradeoff, DrawsEachMethodInAColourOfItsOwnAndNamesItOnce) {
   const TemporaryDirectory directory;
   const std::string scene = directory.write("two.yaml", kTwo);
   const Ending end = twin({"tradeoff", scene, "--system", "swing", "--duration", "0.2", "--json",
-                           "--plot", directory.file("rows.svg")});
+                           "--plot", directory.file("rows.json")});
   ASSERT_EQ(end.status, 0) << end.err;
   std::set<std::string> methods;
   const Json report = Json::parse(end.out);
@@ -114,18 +114,18 @@ TEST(Tradeoff, DrawsEachMethodInAColourOfItsOwnAndNamesItOnce) {
     methods.insert(row["integrator"].get<std::string>());
   }
   ASSERT_GE(methods.size(), 8u);
-  const std::string picture = contentsOf(directory.file("rows.svg"));
-  const std::string words = picture.substr(0, picture.find("</desc>"));
+  const Json figure = Json::parse(contentsOf(directory.file("rows.json")));
+  const std::string words = figure["description"];
   for (const std::string& method : methods) {
     const std::regex name("\\b" + method + "\\b");
     EXPECT_EQ(std::distance(std::sregex_iterator(words.begin(), words.end(), name), {}), 1)
         << method;
   }
-  std::set<std::string> colours;  // fill colours of the dots
-  const std::regex dot("fill:(rgb\\([^)]*\\));fill-opacity:1;stroke-width:1;");
-  for (auto it = std::sregex_iterator(picture.begin(), picture.end(), dot);
-       it != std::sregex_iterator(); ++it) {
-    colours.insert((*it)[1]);
+  std::set<std::string> colours;
+  for (const Json& series : figure["charts"][0]["series"]) {
+    if (!series["pen"].is_null()) {
+      colours.insert(series["pen"]["color"].get<std::string>());
+    }
   }
   EXPECT_GE(colours.size(), methods.size());
 }

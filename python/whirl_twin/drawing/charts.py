@@ -1,0 +1,347 @@
+"""Line charts in rows and columns: time histories, phase portraits, orbits, response curves."""
+
+from __future__ import annotations
+
+from typing import Dict, List, Optional, Tuple
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Polygon
+
+from . import style
+from .labels import MARK, label_chart
+from .style import PX
+from .ticks import (FineTicks, TickLabels, Ticks, data_range, exponent_of, linear_labels,
+                    linear_ticks, logarithmic_labels, most_across, shown, ticks_of)
+
+_SECOND_SCALE = 44.0  # px, above a chart
+_RIGHT = 22.0  # px
+_FOOT = 50.0  # px, of tick labels and label below a chart
+_PER_TICK = 30.0  # px, at least, along a vertical axis
+_FREE_LEGEND_ROWS = 3  # more make a chart higher instead of its curves lower
+
+
+def pen_of(series: dict, index: int) -> dict:
+    """Its own pen, or one of seven colours, then the same with other dashes."""
+    if series["pen"] is not None:
+        return series["pen"]
+    dash = style.DASHES[index // len(style.PALETTE) % len(style.DASHES)]
+    return {"color": style.PALETTE[index % len(style.PALETTE)], "width": style.LINE, "dash": dash}
+
+
+def _legend_names(chart: dict) -> List[str]:
+    names = [item["name"] for item in chart["series"] + chart["bands"] if item["name"]]
+    return names if len(names) > 1 else []
+
+
+def _range(chart: dict, way: str) -> Tuple[float, float]:
+    return data_range((series[way] for series in chart["series"]), chart[way]["logarithmic"])
+
+
+class _Layout:
+    """The places of one chart's parts [px], from the upper left corner of its cell."""
+
+    def __init__(self, chart: dict, width: float, height: float):
+        self.chart = chart
+        self.names = _legend_names(chart)
+        self.rows = len(style.legend_rows(self.names, width - 70.0))
+        self.extra = style.LEGEND_ROW * max(0, self.rows - _FREE_LEGEND_ROWS)
+        self.title, self.title_size = style.fitted(
+            chart["title"], style.CHART_TITLE, width - 20.0, True)
+        self.x, self.y = _range(chart, "x"), _range(chart, "y")
+        self.legend_height = style.LEGEND_ROW * self.rows + (6.0 if self.rows else 0.0)
+        title = 11.0 + style.height_of(self.title, self.title_size) if self.title else 8.0
+        self.top = title + self.legend_height + 4.0
+        most = self.most_up(height - self.top - _FOOT)
+        fixed = chart["y"]["tight"] or chart["equal_aspect"]
+        ticks = ticks_of(chart["y"], *self.y, most, fixed) or list(self.y)
+        if not fixed:
+            self.y = (ticks[0], ticks[-1])
+        self.y_labels, exponent = _labels(chart["y"], ticks)
+        # The exponent and the second scale are above the chart.
+        self.above = _SECOND_SCALE if chart["x"]["second"] else 22.0 if exponent else 0.0
+        self.top += self.above
+        label, size = style.fitted(chart["y"]["label"], style.LABEL, height - self.top)
+        self.left = (23.0 + style.height_of(label, size)
+                     + max(style.text_width(label, style.TICK) for label in self.y_labels))
+        self.right = _RIGHT
+        second = chart["y"]["second"]
+        if second is not None:
+            low, high = sorted((second["factor"] * self.y[0], second["factor"] * self.y[1]))
+            labels, _ = _labels(_LINEAR, linear_ticks(*_nonzero(low, high), most, True))
+            self.right = 44.0 + max(style.text_width(label, style.TICK) for label in labels)
+
+    @staticmethod
+    def most_up(height: float) -> int:
+        return max(4, int(height / _PER_TICK))
+
+    def finish_x(self, width: float) -> None:
+        """Ends of the x axis for a width of the plot [px]."""
+        if not self.chart["x"]["tight"] and not self.chart["equal_aspect"]:
+            ticks = ticks_of(
+                self.chart["x"], *self.x, most_across(self.chart["x"], width, *self.x, inside=False))
+            self.x = (ticks[0], ticks[-1])
+
+
+_LINEAR = {"logarithmic": False, "degrees": False}
+
+
+def _nonzero(low: float, high: float) -> Tuple[float, float]:
+    return (low, high) if low < high else (low - 1.0, low + 1.0)
+
+
+def _labels(axis: dict, ticks: List[float]) -> Tuple[List[str], int]:
+    if axis["logarithmic"]:
+        return logarithmic_labels(ticks), 0
+    exponent = exponent_of(ticks)
+    return linear_labels(ticks, exponent), exponent
+
+
+def draw_charts(figure: dict, ax=None):
+    """A figure with all its charts; with `ax` the first one on these axes."""
+    charts = figure["charts"]
+    if ax is not None:
+        if charts:
+            width, height = style.size_of(ax)
+            layout = _Layout(charts[0], width + 70.0, height + 90.0)
+            _finish_equal(layout, width, height)
+            layout.finish_x(width)
+            _draw_chart(ax, layout, width)
+            if not layout.title and figure["title"]:
+                ax.set_title(figure["title"], size=style.CHART_TITLE * PX, weight="bold",
+                             pad=(layout.legend_height + layout.above + 6.0) * PX, y=1.0)
+        return ax.figure
+    columns = figure["columns"]
+    cell = figure["width"] / columns
+    layouts = [_Layout(chart, cell, figure["chart_height"]) for chart in charts]
+    rows = [layouts[i : i + columns] for i in range(0, len(layouts), columns)]
+    heights = [figure["chart_height"] + max(layout.extra for layout in row) for row in rows]
+    top = style.title_space(figure["title"], figure["width"])
+    sheet = style.sheet(
+        figure["width"], max(top + sum(heights), 60.0), figure["title"], _description(charts))
+    style.add_title(sheet, figure["title"])
+    for row, height in zip(rows, heights):
+        for column, layout in enumerate(row):
+            left = max(one.left for one in layouts[column::columns])
+            right = max(one.right for one in layouts[column::columns])
+            _place_chart(sheet, layout, column * cell, top, cell, height, left, right)
+        top += height
+    return sheet
+
+
+def _place_chart(
+    sheet, layout: _Layout, cell_left: float, cell_top: float, cell: float, cell_height: float,
+    left: float, right: float,
+) -> None:
+    width = max(cell - left - right, 40.0)
+    height = max(cell_height - layout.top - _FOOT, 40.0)
+    if layout.chart["equal_aspect"]:
+        # An orbit is drawn in a square, not in the middle of a wide chart.
+        (x0, x1), (y0, y1) = layout.x, layout.y
+        wanted = max(height, min(width, 1.1 * height * (x1 - x0) / (y1 - y0)))
+        if wanted < 0.75 * width:
+            left += 0.5 * (width - wanted)
+            width = wanted
+    _finish_equal(layout, width, height)
+    layout.finish_x(width)
+    ax = style.add_axes(sheet, cell_left + left, cell_top + layout.top, width, height)
+    _draw_chart(ax, layout, cell - 70.0)
+
+
+def _finish_equal(layout: _Layout, width: float, height: float) -> None:
+    """Equal scales: the range with more units per px sets both."""
+    if layout.chart["equal_aspect"]:
+        margin = 1.04  # marks at the ends are whole
+        unit = margin * max(
+            (layout.x[1] - layout.x[0]) / width, (layout.y[1] - layout.y[0]) / height)
+        layout.x, layout.y = (
+            (0.5 * (a + b) - 0.5 * unit * pixels, 0.5 * (a + b) + 0.5 * unit * pixels)
+            for (a, b), pixels in ((layout.x, width), (layout.y, height))
+        )
+
+
+def _draw_chart(ax, layout: _Layout, legend_width: float) -> None:
+    chart = layout.chart
+    _set_axes(ax, layout)
+    handles = []
+    curves = []
+    for band in chart["bands"]:
+        low, high = max(band["low"], layout.x[0]), min(band["high"], layout.x[1])
+        if high > low:
+            ax.axvspan(low, high, facecolor=band["color"], edgecolor="none", zorder=0.2)
+    reference = {"color": style.GREY, "linewidth": 1.2 * PX, "linestyle": style.dash_of([6.0, 4.0]),
+                 "zorder": 0.9}
+    for i, series in enumerate(chart["series"]):
+        x = shown(series["x"], chart["x"]["logarithmic"])
+        y = shown(series["y"], chart["y"]["logarithmic"])
+        pen = pen_of(series, i)
+        if series["fill"]:
+            good = np.isfinite(x) & np.isfinite(y)
+            if good.sum() > 2:
+                area = Polygon(np.column_stack((x, y))[good], closed=True, facecolor=series["fill"],
+                               edgecolor="none", zorder=1.0 + 1.0e-4 * i, label=series["name"])
+                ax.add_patch(area)
+        handle = _add_series(ax, series, pen, x, y, i)
+        if series["name"]:
+            handles.append(Patch(facecolor=series["fill"], edgecolor=style.GREY, linewidth=0.6)
+                           if series["fill"] else handle)
+        curves.append((np.column_stack((x, y)), pen["width"],
+                       series["line"] and not series["fill"], series["marks"] != "none"))
+    # After the curves: ax.lines[i] is the series i.
+    for line in chart["vertical"]:
+        if layout.x[0] <= line["at"] <= layout.x[1]:
+            ax.axvline(line["at"], **reference)
+    for line in chart["horizontal"]:
+        if layout.y[0] <= line["at"] <= layout.y[1]:
+            ax.axhline(line["at"], **reference)
+    handles += [Patch(facecolor=band["color"], edgecolor=style.GREY, linewidth=0.6)
+                for band in chart["bands"] if band["name"]]
+    if layout.names:
+        style.add_legend(ax, handles, layout.names, legend_width, layout.above + 7.0)
+    ax.set_xlim(layout.x[::-1] if chart["x"]["inverted"] else layout.x)
+    ax.set_ylim(layout.y[::-1] if chart["y"]["inverted"] else layout.y)
+    label_chart(ax, chart, curves)
+
+
+def _add_series(ax, series: dict, pen: dict, x: np.ndarray, y: np.ndarray, index: int) -> Line2D:
+    color = pen["color"]
+    marks: Dict[str, object] = {"marker": "None"}
+    if series["marks"] == "dots":
+        marks = {"marker": "o", "markersize": 2 * MARK * PX, "markerfacecolor": color,
+                 "markeredgecolor": style.BLACK, "markeredgewidth": 1.0 * PX}
+    elif series["marks"] == "rings":
+        marks = {"marker": "o", "markersize": 2 * MARK * PX, "markerfacecolor": "white",
+                 "markeredgecolor": color, "markeredgewidth": 2.0 * PX}
+    has_line = series["line"] and not series["fill"]
+    (line,) = ax.plot(
+        x, y, color=color, linewidth=pen["width"] * PX,
+        linestyle=style.dash_of(pen["dash"]) if has_line else "None",
+        zorder=(2.0 if series["marks"] == "none" else 3.0) + 1.0e-4 * index,
+        label=series["name"] or "_", clip_on=series["marks"] == "none", **marks,
+    )
+    if has_line and series["marks"] == "none":
+        alone = _alone(x, y)
+        if alone.any():  # a point between two gaps has no line: it is a dot
+            line.set_marker("o")
+            line.set_markersize(max(pen["width"] + 1.5, 3.0) * PX)
+            line.set_markeredgewidth(0.0)
+            line.set_markevery(np.flatnonzero(alone).tolist())
+    return line
+
+
+def _alone(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    good = np.isfinite(x) & np.isfinite(y)
+    padded = np.concatenate(([False], good, [False]))
+    return good & ~padded[:-2] & ~padded[2:]
+
+
+def _set_axes(ax, layout: _Layout) -> None:
+    chart = layout.chart
+    width, height = style.size_of(ax)
+    for way, axis, length in (("x", ax.xaxis, width), ("y", ax.yaxis, height)):
+        fields = chart[way]
+        if fields["logarithmic"]:
+            (ax.set_xscale if way == "x" else ax.set_yscale)("log")
+        axis.set_major_locator(Ticks(fields, _most(fields, way, length)))
+        axis.set_major_formatter(TickLabels(fields["logarithmic"]))
+        if fields["logarithmic"]:
+            axis.set_minor_locator(FineTicks())
+            axis.set_minor_formatter(_nothing())
+            axis.grid(True, which="minor", color=style.FINE_GRID, linewidth=0.8 * PX)
+        axis.grid(True, which="major", color=style.GRID, linewidth=1.0 * PX)
+        axis.set_tick_params(which="major", length=4.0 * PX, width=1.0 * PX, color=style.GREY,
+                             labelsize=style.TICK * PX, labelcolor=style.BLACK)
+        axis.set_tick_params(which="minor", length=0.0)
+        axis.get_offset_text().set_size(style.TICK * PX)
+        axis.get_offset_text().set_color(style.BLACK)
+    ax.set_axisbelow(True)
+    for spine in ax.spines.values():
+        spine.set_color(style.GREY)
+        spine.set_linewidth(1.2 * PX)
+    ax.set_xlim(layout.x)
+    ax.set_ylim(layout.y)
+    if chart["equal_aspect"]:
+        _share_ticks(ax, layout, width, height)
+    ax.yaxis.get_offset_text().set_ha("right")
+    ax.yaxis.get_offset_text().set_x(-6.0 / width)
+    ax.yaxis.OFFSETTEXTPAD = 8.0 * PX
+    text, size = style.fitted(chart["x"]["label"], style.LABEL, width + 40.0)
+    ax.set_xlabel(text, size=size * PX, labelpad=4.0 * PX, color=style.BLACK)
+    text, size = style.fitted(chart["y"]["label"], style.LABEL, height + _FOOT)
+    ax.set_ylabel(text, size=size * PX, labelpad=5.0 * PX, color=style.BLACK)
+    if layout.title:
+        ax.set_title(layout.title, size=layout.title_size * PX, weight="bold", y=1.0,
+                     color=style.BLACK, pad=(layout.legend_height + layout.above + 7.0) * PX)
+    _add_second_scales(ax, chart, width, height)
+
+
+def _most(fields: dict, way: str, length: float, ceiling: int = 9):
+    if way == "y":
+        return lambda low, high: _Layout.most_up(length)
+    return lambda low, high: most_across(fields, length, low, high, ceiling)
+
+
+def _nothing():
+    from matplotlib.ticker import NullFormatter
+
+    return NullFormatter()
+
+
+def _share_ticks(ax, layout: _Layout, width: float, height: float) -> None:
+    """Ticks of equal scales have the same step and one exponent."""
+    steps, sizes = [], []
+    for way, (low, high), length in (("x", layout.x, width), ("y", layout.y, height)):
+        most = min(9, _most(_LINEAR, way, length)(low, high))
+        ticks = linear_ticks(low, high, most, True)
+        steps.append(ticks[1] - ticks[0])
+        sizes += ticks
+    exponent = exponent_of(sizes)
+    for axis in (ax.xaxis, ax.yaxis):
+        step = max(steps)
+        axis.get_major_locator().step = step
+        axis.get_major_formatter().least_exponent = exponent
+
+
+def _add_second_scales(ax, chart: dict, width: float, height: float) -> None:
+    for way, length in (("x", width), ("y", height)):
+        second = chart[way]["second"]
+        if second is None or second["factor"] == 0.0:
+            continue
+        factor = second["factor"]
+        functions = (lambda v, f=factor: v * f, lambda v, f=factor: v / f)
+        fields = {**chart[way], "degrees": False}
+        if way == "x":
+            scale = ax.secondary_xaxis("top", functions=functions)
+            axis = scale.xaxis
+        else:
+            scale = ax.secondary_yaxis("right", functions=functions)
+            axis = scale.yaxis
+        axis.set_major_locator(Ticks(fields, _most(fields, way, length, 8)))
+        axis.set_major_formatter(TickLabels(fields["logarithmic"]))
+        if fields["logarithmic"]:
+            axis.set_minor_locator(FineTicks())
+            axis.set_minor_formatter(_nothing())
+        axis.set_tick_params(which="both", length=4.0 * PX, width=1.0 * PX, color=style.GREY,
+                             labelsize=style.TICK * PX, labelcolor=style.BLACK, pad=3.0 * PX)
+        axis.set_label_text(second["label"], size=style.TICK * PX, color=style.BLACK)
+        axis.labelpad = 4.0 * PX
+        axis.get_offset_text().set_size(style.TICK * PX)
+        for spine in scale.spines.values():
+            spine.set_color(style.GREY)
+            spine.set_linewidth(1.2 * PX)
+
+
+def _description(charts: List[dict]) -> str:
+    """A text for screen readers: what is drawn over what."""
+
+    def name(axis: dict) -> str:
+        return axis["label"] + (", " + axis["second"]["label"] if axis["second"] else "")
+
+    texts = []
+    for chart in charts:
+        title = chart["title"] + ": " if chart["title"] else ""
+        names = ", ".join(series["name"] for series in chart["series"] if series["name"])
+        lines = "".join(f" [{line['label']} at {line['at']:.4g}]"
+                        for line in chart["vertical"] + chart["horizontal"] if line["label"])
+        texts.append(f"{title}{name(chart['y'])} over {name(chart['x'])}: {names}{lines}")
+    return "; ".join(texts)
