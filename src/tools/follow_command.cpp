@@ -12,7 +12,7 @@
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
 #include "tools/report_options.h"
-#include "tools/shipped_scenes.h"
+#include "requests/shipped_scenes.h"
 #include "transport/channels.h"
 #include "twin/scene_lines.h"
 
