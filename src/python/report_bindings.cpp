@@ -91,7 +91,7 @@ void bindReports(py::module_& module) {
       "campbell",
       [](const SharedScene& scene, Name system, Number from, Number to, int points,
          std::vector<double> harmonics, int modes, bool insist, const py::object& progress) {
-        const CampbellRequest request{
+        const CampbellReportRequest request{
             std::move(system), {from, to, points}, std::move(harmonics), modes, insist};
         Document document;
         runListening(progress, [&](WorkProgress& work) {

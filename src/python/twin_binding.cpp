@@ -82,7 +82,7 @@ std::string statusOf(const SteppedTwin& stepped, const std::string& system) {
 }
 
 /// In the unit of the input; an unknown input is an error of setInput().
-void setInput(SteppedTwin& stepped, const std::string& system, const std::string& input,
+void putInput(SteppedTwin& stepped, const std::string& system, const std::string& input,
               const py::handle& value, std::optional<double> duration) {
   std::string unit = "-";
   const BuiltSystem& built = *stepped.twin().systems()[stepped.systemNamed(system)];
@@ -95,7 +95,7 @@ void setInput(SteppedTwin& stepped, const std::string& system, const std::string
 }
 
 /// In the unit of the parameter; an unknown path is an error of setParameter().
-void setParameter(SteppedTwin& stepped, const std::string& system, const std::string& path,
+void putParameter(SteppedTwin& stepped, const std::string& system, const std::string& path,
                   const py::handle& value) {
   const BuiltSystem& built = *stepped.twin().systems()[stepped.systemNamed(system)];
   const std::string unit = unitAt(path, *built.model, built.spec);
@@ -130,9 +130,9 @@ void bindTwin(py::module_& module) {
       .def("state", stateOf, py::arg("system"))
       .def("names", namesOf, py::arg("system"))
       .def("status", statusOf, py::arg("system"))
-      .def("set_input", setInput, py::arg("system"), py::arg("input"),
+      .def("set_input", putInput, py::arg("system"), py::arg("input"),
            py::arg("value"), py::arg("duration"))
-      .def("set_parameter", setParameter, py::arg("system"), py::arg("path"),
+      .def("set_parameter", putParameter, py::arg("system"), py::arg("path"),
            py::arg("value"))
       .def("parameter", &SteppedTwin::parameter, py::arg("system"), py::arg("path"))
       .def("save", [](SteppedTwin& s) { return py::bytes(s.save()); })

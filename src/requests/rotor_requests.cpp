@@ -52,7 +52,7 @@ Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const Make&
   return rotorDocument(of, make, [](const auto& report) { return figure(report); });
 }
 
-void requireNumbers(const CampbellRequest& request) {
+void requireNumbers(const CampbellReportRequest& request) {
   for (const double harmonic : request.harmonics) {
     if (!(harmonic > 0.0 && harmonic <= 100.0)) {
       throw InputError("--harmonic: expected multiples of the speed above 0 and up to 100, found " +
@@ -79,7 +79,7 @@ void requireModesUse(const ModesRequest& request) {
 
 }  // namespace
 
-Document campbellDocument(const Scene& scene, const CampbellRequest& request,
+Document campbellDocument(const Scene& scene, const CampbellReportRequest& request,
                           WorkProgress& progress) {
   requireNumbers(request);
   const auto of = rotorsOf(scene, request.system);

@@ -21,14 +21,14 @@ namespace whirl_twin {
 // scene's name and, by its name, each of them. Errors name the options of the commands. All throw
 // InputError, for a scene without rotors too.
 
-struct CampbellRequest {
+struct CampbellReportRequest {
   std::optional<std::string> system;
   SpeedRangeOptions range;
   std::vector<double> harmonics{1.0};  ///< multiples of the speed
   int modes = 12;
   bool insist = false;
 };
-Document campbellDocument(const Scene& scene, const CampbellRequest& request,
+Document campbellDocument(const Scene& scene, const CampbellReportRequest& request,
                           WorkProgress& progress);
 
 struct ResponseRequest {

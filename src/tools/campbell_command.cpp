@@ -26,7 +26,7 @@ constexpr const char* kCampbellFooter =
 
 struct CampbellOptions {
   ReportOptions options;
-  CampbellRequest request;
+  CampbellReportRequest request;
 };
 
 int campbellOf(CampbellOptions& given) {
@@ -41,7 +41,7 @@ int campbellOf(CampbellOptions& given) {
 void addCampbellCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("campbell", kCampbellDescription);
   const auto given = std::make_shared<CampbellOptions>();
-  CampbellRequest* const request = &given->request;
+  CampbellReportRequest* const request = &given->request;
   addReportOptions(command, given->options, "the diagram");
   command.option("--from", request->range.from, "rad/s; default: 0").type("W");
   command.option("--to", request->range.to, "rad/s; default: 1.2 times the drive's highest speed")

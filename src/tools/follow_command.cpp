@@ -7,6 +7,7 @@
 #include "estimation/estimator_scene.h"
 #include "estimation/follow_settings.h"
 #include "reports/followed_log.h"
+#include "requests/durations.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"

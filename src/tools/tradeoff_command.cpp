@@ -11,6 +11,7 @@
 #include "reports/drawings.h"
 #include "reports/rotor_systems.h"
 #include "reports/tradeoff_report.h"
+#include "requests/durations.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
