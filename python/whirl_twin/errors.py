@@ -41,6 +41,7 @@ def _problem(text: str) -> Problem:
     path = parts[at] if at else ""
     message = ": ".join(parts[at + 1:])
     expected, _, found = message.partition(", found ")
+    found = re.sub(r"^'(.*)'$", r"\1", found)
     return Problem(path, re.sub(r"^(missing; )?(must be|must have|expected) ", "", expected), found, text)
 
 

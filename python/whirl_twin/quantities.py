@@ -49,4 +49,4 @@ def text(name: str, value: Any) -> str | None:
 
 def listed(value: Any) -> list:
     """A list of one, or of all."""
-    return [value] if isinstance(value, (str, numbers.Number)) else list(value)
+    return [value] if isinstance(value, (str, bytes, numbers.Number)) else list(value)

@@ -129,7 +129,7 @@ def routh(coefficients: Sequence[Any], parameter: str | None = None, *, insist: 
     "3+2i", with a parameter "2K"). parameter: its name; the values are found for which all roots are left of the axis.
 
     >>> routh([1, 2, 3, 4]).verdict
-    'stable'
+    'asymptotically_stable'
     """
     return Result(_native.routh([_coefficient(one) for one in listed(coefficients)], text("parameter", parameter),
                                 bool(insist)), "routh")

@@ -21,6 +21,11 @@ namespace {
 constexpr std::int64_t kStepsAtOnce = 16;  // between two looks at the clock
 constexpr std::chrono::milliseconds kLookPeriod{50};
 
+struct SavedHead {
+  std::int64_t step;
+  std::uint64_t twin_size;  // bytes
+};
+
 }  // namespace
 
 SteppedTwin::SteppedTwin(const Scene& scene)
@@ -131,23 +136,35 @@ std::optional<double> SteppedTwin::parameter(const std::string& system,
 
 std::string SteppedTwin::save() {
   const std::string twin = imageOf(twin_);
-  const auto size = static_cast<std::uint64_t>(twin.size());
-  std::string bytes(sizeof size, '\0');
-  std::memcpy(bytes.data(), &size, sizeof size);
+  const SavedHead head{twin_.stepCount(), static_cast<std::uint64_t>(twin.size())};
+  std::string bytes(sizeof head, '\0');
+  std::memcpy(bytes.data(), &head, sizeof head);
   return bytes + twin + imageOf(observer_);
 }
 
 void SteppedTwin::restore(const std::string& bytes) {
-  std::uint64_t size = 0;
-  if (bytes.size() >= sizeof size) {
-    std::memcpy(&size, bytes.data(), sizeof size);
+  SavedHead head{};
+  if (bytes.size() >= sizeof head) {
+    std::memcpy(&head, bytes.data(), sizeof head);
   }
-  if (bytes.size() < sizeof size || size > bytes.size() - sizeof size) {
+  if (bytes.size() < sizeof head || head.twin_size > bytes.size() - sizeof head) {
     throw InputError("restore: must be what save() returned");
   }
+  const std::string before = save();
+  try {
+    put(head.step, bytes.substr(sizeof head), head.twin_size);
+  } catch (const InputError&) {
+    std::memcpy(&head, before.data(), sizeof head);
+    put(head.step, before.substr(sizeof head), head.twin_size);
+    throw;
+  }
+}
+
+void SteppedTwin::put(std::int64_t step, const std::string& images, std::size_t twin_size) {
   Checkpoint saved;
-  saved.twin = bytes.substr(sizeof size, size);
-  saved.observer = bytes.substr(sizeof size + size);
+  saved.step = step;
+  saved.twin = images.substr(0, twin_size);
+  saved.observer = images.substr(twin_size);
   whirl_twin::restore(saved, twin_, "restore");
   whirl_twin::restore(saved, observer_, "restore");
 }

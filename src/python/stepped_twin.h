@@ -36,7 +36,7 @@ class SteppedTwin {
   std::optional<double> parameter(const std::string& system, const std::string& path) const;
 
   /// The state as bytes; restore() takes it back into a twin of the same scene, whose parameters
-  /// must be those of the scene. Both throw InputError.
+  /// must be those of the scene. Both throw InputError, with nothing changed.
   std::string save();
   void restore(const std::string& bytes);
 
@@ -45,6 +45,7 @@ class SteppedTwin {
 
  private:
   void observe();
+  void put(std::int64_t step, const std::string& images, std::size_t twin_size);
   std::int64_t stepUnobserved(std::int64_t count);
 
   Scene scene_;

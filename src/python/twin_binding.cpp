@@ -78,7 +78,8 @@ py::dict namesOf(const SteppedTwin& stepped, const std::string& system) {
 }
 
 std::string statusOf(const SteppedTwin& stepped, const std::string& system) {
-  return describe(stepped.twin().status(stepped.systemNamed(system)));
+  const StepStatus status = stepped.twin().status(stepped.systemNamed(system));
+  return status == StepStatus::kOk ? "ok" : describe(status);
 }
 
 /// In the unit of the input; an unknown input is an error of setInput().

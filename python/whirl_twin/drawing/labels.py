@@ -11,6 +11,7 @@ from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
 from . import style
+from .thinning import by_columns, pieces_of
 
 HEIGHT = 15.0  # px, of a line of text
 MARK = 4.5  # px, radius
@@ -32,10 +33,15 @@ class LabelPlaces:
         gc = self._renderer.new_gc()
         gc.set_linewidth(width)
         xy = np.where(np.abs(xy) < 1.0e5, xy, np.nan)
-        # In pieces: Agg refuses very long paths.
-        for start in range(0, max(len(xy) - 1, 0), 5000):
-            piece = Path(xy[start : start + 5001])
-            self._renderer.draw_path(gc, piece, self._upright())
+        pieces = pieces_of(xy)
+        if len(pieces) > 1000:
+            pieces = [xy]
+        pieces = [by_columns(piece) if (np.diff(piece[:, 0]) >= 0.0).all() else piece
+                  for piece in pieces]
+        stretches = [piece[i : i + 501] for piece in pieces for i in range(0, len(piece) - 1, 500)]
+        # Of a tangle a part is enough to find the free places. Agg refuses very long paths.
+        for stretch in stretches[:: 1 + len(stretches) // 100]:
+            self._renderer.draw_path(gc, Path(stretch), self._upright())
         gc.restore()
         self._sums = None
 

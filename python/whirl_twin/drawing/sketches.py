@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from typing import Iterable, List, Tuple
+from typing import List, Tuple
 
 import numpy as np
 

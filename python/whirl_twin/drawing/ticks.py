@@ -213,8 +213,15 @@ class Ticks(Locator):
             last = math.floor(high / self.step + _SLACK)
             ticks = [i * self.step for i in range(first, last + 1)]
         else:
-            ticks = ticks_of(self.fields, low, high, most, True)
+            ticks = ticks_of(self.fields, low, high, most)
+            if not (_same(ticks[0], low, high) and _same(ticks[-1], high, low)):
+                ticks = ticks_of(self.fields, low, high, most, True)
         return ticks
+
+
+def _same(tick: float, end: float, other_end: float) -> bool:
+    """Is a tick at an end of the axis?"""
+    return abs(tick - end) <= 1.0e-9 * min(abs(end - other_end), max(abs(tick), abs(end)))
 
 
 class FineTicks(Locator):
