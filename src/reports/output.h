@@ -1,6 +1,7 @@
 // Where results go: standard output, or a file that appears only when it is complete.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -53,6 +54,10 @@ void printJson(const Json& json);
 
 /// Prints a message on standard error likewise, whether it can be written or not.
 void complain(const std::string& message);
+
+/// Called with each message instead, from any thread, in a program whose standard error is not the
+/// user's. To be set before other threads run.
+void setMessageSink(std::function<void(const std::string&)> sink);
 
 /// Hands everything printed to the system: only then is a full device noticed. Throws RunFailure.
 void finishStandardOutput();

@@ -14,7 +14,7 @@
 #include "tools/balancing_runs.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "tools/shipped_scenes.h"
+#include "requests/shipped_scenes.h"
 
 namespace whirl_twin {
 

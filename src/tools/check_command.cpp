@@ -7,7 +7,7 @@
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "tools/shipped_scenes.h"
+#include "requests/shipped_scenes.h"
 
 namespace whirl_twin {
 

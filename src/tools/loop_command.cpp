@@ -1,15 +1,13 @@
 #include <memory>
 #include <optional>
 
-#include "messages/input_error.h"
 #include "reports/csv_table.h"
-#include "reports/drawings.h"
-#include "reports/loop_report.h"
+#include "requests/scene_requests.h"
+#include "requests/shipped_scenes.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
 
@@ -33,40 +31,25 @@ constexpr const char* kLoopFooter =
     "  twin loop my_rotor.yaml --plot loop.svg\n"
     "  twin loop my_rotor.yaml --speed 300 --json";
 
-struct LoopRequest {
+struct LoopOptions {
   std::string scene;
   std::optional<double> speed;
   std::optional<std::string> plot;
   bool json = false;
 };
 
-int loopsOf(const LoopRequest& request) {
-  constexpr double kFastest = 1.0e6;
-  if (request.speed && !(*request.speed >= -kFastest && *request.speed <= kFastest)) {
-    throw InputError("--speed: expected a shaft speed from -1e+06 to 1e+06 rad/s");
-  }
-  requirePictureName(request.plot);
-  const Scene scene = readSceneFile(scenePath(request.scene));
-  if (scene.controllers.empty()) {
-    throw InputError(request.scene + ": controllers: expected at least one, found none");
-  }
-  const LoopReport report = loopReport(scene, request.speed);
-  Drawings drawings;
-  for (const LoopedController& controller : report.controllers) {
-    if (request.plot && !controller.responses.empty()) {
-      drawings.add(pictureName(*request.plot, controller.spec->name, report.controllers.size() > 1),
-                   figureJson(figure(controller)));
-    }
-  }
-  drawings.write();
-  return printReport(request.json, json(report), text(report));
+int loopsOf(const LoopOptions& options) {
+  requirePictureName(options.plot);
+  const Document document =
+      loopDocument(readSceneFile(scenePath(options.scene)), options.speed);
+  return printDocument(document, options.json, std::nullopt, options.plot);
 }
 
 }  // namespace
 
 void addLoopCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("loop", kLoopDescription);
-  const auto request = std::make_shared<LoopRequest>();
+  const auto request = std::make_shared<LoopOptions>();
   addSceneOption(command, request->scene);
   command
       .option("--speed", request->speed, "speed of all shafts [rad/s]; default: that at the start")

@@ -13,7 +13,7 @@
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
 #include "tools/report_options.h"
-#include "tools/shipped_scenes.h"
+#include "requests/shipped_scenes.h"
 #include "transport/channels.h"
 
 namespace whirl_twin {

@@ -12,7 +12,7 @@
 #include "reports/output.h"
 #include "scene/yaml_file.h"
 #include "tools/commands.h"
-#include "tools/shipped_scenes.h"
+#include "requests/shipped_scenes.h"
 
 namespace whirl_twin {
 

@@ -14,7 +14,7 @@
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/shipped_scenes.h"
+#include "requests/shipped_scenes.h"
 
 namespace whirl_twin {
 

@@ -11,7 +11,7 @@
 #include "scene/scene_reader.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "tools/shipped_scenes.h"
+#include "requests/shipped_scenes.h"
 
 namespace whirl_twin {
 

@@ -10,7 +10,9 @@
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/simulation.h"
+#include "tools/interrupt.h"
+#include "tools/progress_bar.h"
+#include "requests/simulation.h"
 #include "twin/scene_lines.h"
 
 namespace whirl_twin {
@@ -118,9 +120,11 @@ int simulate(const SimulationRequest& request) {
   if (request.members) {
     requireOneEnsemble(plan);
   }
+  catchInterrupts();  // before a writer opens its file, which an interrupted run removes
   Simulation simulation(plan);
   const auto writer = makeWriter(request, plan, simulation.twin());
-  simulation.run(writer.get(), !request.output && !request.json);
+  TerminalProgress progress(!request.output && !request.json);
+  simulation.run(writer.get(), progress);
   if (writer) {
     writer->finish();
   }

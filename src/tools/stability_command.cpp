@@ -1,7 +1,7 @@
 #include <memory>
 #include <vector>
 
-#include "reports/level_one_report.h"
+#include "requests/rotor_requests.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
 
@@ -26,14 +26,14 @@ constexpr const char* kStabilityFooter =
     "  twin stability friswell_rotor --plot level_one.svg\n"
     "  twin stability friswell_rotor --stage 500 0.4 0.015 1.6 --stage 400 0.4 0.012 1.5";
 
-struct StabilityRequest {
+struct StabilityOptions {
   ReportOptions options;
   LevelOneRequest level_one;
   std::vector<std::vector<double>> centrifugal, axial;
 };
 
 /// Each given stage, with its number of values.
-void takeStages(StabilityRequest& request) {
+void takeStages(StabilityOptions& request) {
   for (const std::vector<double>& s : request.centrifugal) {
     request.level_one.stages.push_back({s[0], s[1], s[2], s[3], false});
   }
@@ -46,7 +46,7 @@ void takeStages(StabilityRequest& request) {
 
 void addStabilityCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("stability", kStabilityDescription);
-  const auto request = std::make_shared<StabilityRequest>();
+  const auto request = std::make_shared<StabilityOptions>();
   addReportOptions(command, request->options, "the diagram");
   command
       .option("--speed", request->level_one.speed,
@@ -67,9 +67,9 @@ void addStabilityCommand(const ProgramCommand& twin, int& status) {
   command.footer(kStabilityFooter);
   command.callback([request, &status] {
     takeStages(*request);
-    status = reportRotors(request->options, [&](const RotorSystem& rotor) {
-      return levelOneReport(rotor, request->level_one);
-    });
+    status = printDocument(stabilityDocument(sceneOf(request->options), request->options.system,
+                                             request->level_one),
+                           request->options);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "accuracy/step_choice.h"
 #include "integration/step_methods.h"
@@ -14,10 +15,9 @@
 #include "scene/model_context.h"
 #include "scene/scene_reader.h"
 #include "scene/system_setup.h"
-#include "tools/arguments.h"
-#include "tools/commands.h"
-#include "tools/shipped_scenes.h"
-#include "tools/simulation.h"
+#include "requests/durations.h"
+#include "requests/shipped_scenes.h"
+#include "requests/simulation.h"
 
 namespace whirl_twin {
 
@@ -90,9 +90,15 @@ std::vector<SensorSpec> selectedSensors(const Scene& scene, const std::string& n
 }  // namespace
 
 SimulationPlan planSimulation(const SimulationRequest& request) {
+  const std::string path = scenePath(request.scene);
+  SimulationPlan plan = planSimulation(readSceneFile(path), request);
+  plan.path = path;
+  return plan;
+}
+
+SimulationPlan planSimulation(Scene scene, const SimulationRequest& request) {
   SimulationPlan plan;
-  plan.path = scenePath(request.scene);
-  plan.scene = readSceneFile(plan.path);
+  plan.scene = std::move(scene);
   plan.checkpoint = request.checkpoint;
   plan.resume = request.resume;
   plan.systems = selectedSystems(plan.scene, request.system);
