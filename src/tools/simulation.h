@@ -52,6 +52,9 @@ struct SimulationPlan {
 /// Reads the scene and checks the options against it. Throws SceneError or InputError.
 SimulationPlan planSimulation(const SimulationRequest& request);
 
+/// Warns that a run without the processes of a scene's external controllers differs.
+void warnOfExternalControllers(const Scene& scene);
+
 class Simulation {
  public:
   /// From now on SIGINT and SIGTERM end a run in an orderly way. Throws InputError for a checkpoint
