@@ -173,7 +173,7 @@ function showStability(place, margin) {
   add("damping ratio", margin.damping_ratio, "");
   add("unstable from", margin.instability_speed, "rad/s");
   if (margin.critical_speeds?.length) {
-    parts.push(`critical speeds ${margin.critical_speeds.slice(0, 3).map(one => short(one.speed, 4)).join(", ")} rad/s`);
+    parts.push(`critical speeds ${margin.critical_speeds.slice(0, 3).map(one => short(one.critical_speed, 4)).join(", ")} rad/s`);
   }
   if (margin.nearest_parameter) {
     parts.push(`lost at ${margin.nearest_parameter} = ${short(margin.nearest_value, 4)}`);
