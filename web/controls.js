@@ -17,7 +17,8 @@ function spanOf(range, value) {
 let count = 0;
 
 export class Slider {
-  /// number: {path or name, unit, meaning, range, value} or {low, high}; change(value) sends it.
+  /// number: {unit, meaning, range or low and high, value}; change(value) sends it, and may promise an answer: none
+  /// where it is refused.
   constructor(label, number, change) {
     this.change = change;
     this.span = number.low !== undefined ? number : spanOf(number.range, number.value);
@@ -35,7 +36,9 @@ export class Slider {
     this.row.append(name, this.range, this.number, unit);
     this.show(number.value);
     this.range.addEventListener("input", () => this.set(this.at(this.range.value / STEPS)));
+    this.number.addEventListener("input", () => this.editing = true);
     this.number.addEventListener("change", () => {
+      this.editing = false;
       if (this.number.value !== "") {
         this.set(Number(this.number.value));
       }
@@ -52,15 +55,20 @@ export class Slider {
   set(value) {
     this.number.value = short(value, 6);
     this.next = value;
-    this.timer ??= setTimeout(() => {
+    this.timer ??= setTimeout(async () => {
       this.timer = undefined;
-      this.change(this.next);
+      const sent = this.next;
+      const answer = this.change(sent);
+      if (answer) {
+        this.show(await answer ? sent : this.known);
+      }
     }, 100);
   }
 
   /// The value that the twin has.
   show(value) {
-    if (this.timer !== undefined || document.activeElement === this.number) {
+    this.known = value;
+    if (this.timer !== undefined || this.editing) {
       return;
     }
     const {low, high, logarithmic} = this.span;

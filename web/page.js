@@ -18,7 +18,7 @@ let views = [];               // with draw()
 const sliders = new Map();    // of parameters, by name
 let paused = false, readOnly = false, hideMessage;
 
-function tell(text) {
+function showMessage(text) {
   $("message").textContent = text;
   $("message").hidden = false;
   clearTimeout(hideMessage);
@@ -36,23 +36,26 @@ const client = new Client(`ws://${location.host}/${location.search}`, {
     client.watchParameters();
   },
   close() { showState("lost", "disconnected"); },
-  status: tell,
+  status: showMessage,
   parameters(values) { values.forEach(one => sliders.get(one.name)?.show(one.value)); },
 });
 
-const call = (service, request = {}) => client.call(service, request).catch(error => tell(error.message));
+const call = (service, request = {}) => client.call(service, request).catch(error => showMessage(error.message));
 
 function showState(kind, text) {
   $("state").className = `pill ${kind}`;
   $("state").textContent = text;
 }
 
-function showLoop(loop) {
-  paused = loop.paused;
-  const stopped = loop.system.filter((_, i) => loop.stopped[i] !== 0);
+function showPaused(now, stopped = []) {
+  paused = now;
   showState(paused ? "paused" : stopped.length ? "lost" : "running",
             paused ? "paused" : stopped.length ? `${stopped.join(", ")} stopped` : "running");
   $("pause").textContent = paused ? "Resume" : "Pause";
+}
+
+function showLoop(loop) {
+  showPaused(loop.paused, loop.system.filter((_, i) => loop.stopped[i] !== 0));
   $("time").textContent = `${short(loop.time, 6)} s`;
   $("factor").textContent = loop.achieved_factor === null || paused ? "" : `× ${short(loop.achieved_factor, 3)}`;
 }
@@ -192,25 +195,25 @@ function schedule() {
     due = true;
     requestAnimationFrame(() => {
       due = false;
-      views.forEach(view => view.draw());
+      views.filter(view => isVisible(view.canvas)).forEach(view => view.draw());
     });
   }
 }
+function isVisible(canvas) {
+  const {top, bottom} = canvas.getBoundingClientRect();
+  return bottom > 0 && top < innerHeight;
+}
 addEventListener("resize", schedule);
+addEventListener("scroll", schedule, {passive: true});
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", schedule);
 
 // ---- Run
 
-$("pause").addEventListener("click", () => call(paused ? "resume" : "pause").then(answer => {
-  if (answer) {
-    showLoopState(!paused);
+$("pause").addEventListener("click", async () => {
+  if (await call(paused ? "resume" : "pause")) {
+    showPaused(!paused);
   }
-}));
-function showLoopState(now) {
-  paused = now;
-  showState(now ? "paused" : "running", now ? "paused" : "running");
-  $("pause").textContent = now ? "Resume" : "Pause";
-}
+});
 $("step").addEventListener("click", () => call("step", {steps: Math.max(0, Math.round(Number($("steps").value)))}));
 $("reset").addEventListener("click", () => call("reset"));
 $("pace").addEventListener("change", () => call("set_real_time_factor", {factor: Number($("pace").value)}));

@@ -26,15 +26,19 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kServeDescription =
-    "Runs a scene in real time with its monitor, and shows it in a browser: motion, orbits, traces,\n"
+    "Runs a scene in real time with its monitor, and shows it in a browser: motion, orbits, "
+    "traces,\n"
     "alarms, sliders for parameters, inputs and speeds. Without ROS, until Ctrl-C.";
 
 constexpr const char* kServeFooter =
-    "Open the address that it prints. Foxglove, Lichtblick and PlotJuggler connect to the same port\n"
+    "Open the address that it prints. Foxglove, Lichtblick and PlotJuggler connect to the same "
+    "port\n"
     "(ws://127.0.0.1:8765): states, alerts and margins are channels in JSON.\n"
     "\n"
-    "Only programs of this machine can connect, and only the page of this server. --address with an\n"
-    "address of the network requires a token, which is part of the address that it prints; there is "
+    "Only programs of this machine can connect, and only the page of this server. --address with "
+    "an\n"
+    "address of the network requires a token, which is part of the address that it prints; there "
+    "is "
     "no\n"
     "encryption. Exit status: 0 after Ctrl-C, 1 the port is in use, 2 bad input.\n"
     "\n"
@@ -50,7 +54,7 @@ struct ServeRequest {
   std::vector<std::string> origins;
   std::optional<std::string> settings;
   std::string realtime = "ignore";
-  double rate = 100.0;             // Hz
+  double rate = 100.0;  // Hz
   double real_time_factor = 1.0;
   bool read_only = false, paused = false;
 };
@@ -111,7 +115,8 @@ void addServeCommand(const ProgramCommand& twin, int& status) {
       .type("URL");
   command.flag("--read-only", request->read_only, "clients can change nothing");
   command.flag("--paused", request->paused, "start paused");
-  command.option("--rate", request->rate, "states per second to clients; 0: every step; default: 100")
+  command
+      .option("--rate", request->rate, "states per second to clients; 0: every step; default: 100")
       .type("HZ");
   command
       .option("--real-time-factor", request->real_time_factor,

@@ -308,8 +308,9 @@ CommandResult LiveCommands::setInput(const std::string& system, const std::strin
   CommandResult result;
   result.done = answer.done;
   result.step = answer.step;
-  result.message = answer.done ? fmt::format("{}/{} is {} for {:g} s", system, input, value, duration)
-                               : "the input cannot be set";
+  result.message = answer.done
+                       ? fmt::format("{}/{} is {} for {:g} s", system, input, value, duration)
+                       : "the input cannot be set";
   return result;
 }
 

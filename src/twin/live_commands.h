@@ -1,6 +1,6 @@
 // Commands to a twin that runs: pause, resume, reset, step, and changes of speeds, inputs and
-// parameters. Each is checked, passed to the loop, and answered when it is done. Services of ROS and
-// the web server use them, so that both have the same checks and messages.
+// parameters. Each is checked, passed to the loop, and answered when it is done. Services of ROS
+// and the web server use them, so that both have the same checks and messages.
 #pragma once
 
 #include <atomic>
@@ -23,11 +23,11 @@ std::string factorFault(double factor);
 
 struct CommandResult {
   bool done = false;
-  std::string message;     ///< what was done, or why it was not
-  std::int64_t step = 0;   ///< current step
-  double duration = 0.0;   ///< [s], of a move of a drive
-  double speed = 0.0;      ///< [rad/s], its final speed; NaN: the move is not possible
-  double previous = 0.0;   ///< value of the first parameter before; NaN: not changed
+  std::string message;    ///< what was done, or why it was not
+  std::int64_t step = 0;  ///< current step
+  double duration = 0.0;  ///< [s], of a move of a drive
+  double speed = 0.0;     ///< [rad/s], its final speed; NaN: the move is not possible
+  double previous = 0.0;  ///< value of the first parameter before; NaN: not changed
 };
 
 class LiveCommands {

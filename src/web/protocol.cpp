@@ -96,14 +96,14 @@ std::string requestFault(const ServiceInfo& service, const Json& request) {
   }
   for (const auto& [name, type] : service.fields) {
     const auto found = request.find(name);
-    const bool fits = found != request.end() && (type == "string" ? found->is_string()
-                                                 : type == "integer"
-                                                     ? found->is_number_unsigned()
-                                                     : found->is_number());
+    const bool fits = found != request.end() && (type == "string"    ? found->is_string()
+                                                 : type == "integer" ? found->is_number_unsigned()
+                                                                     : found->is_number());
     if (!fits) {
-      return fmt::format("{}: {}: must be {}, found {}", service.name, name,
-                         type == "integer" ? "a whole number >= 0" : "a " + type,
-                         found == request.end() ? "nothing" : printable(found->dump(-1, ' ', true)));
+      return fmt::format(
+          "{}: {}: must be {}, found {}", service.name, name,
+          type == "integer" ? "a whole number >= 0" : "a " + type,
+          found == request.end() ? "nothing" : printable(found->dump(-1, ' ', true)));
     }
   }
   return "";
@@ -315,9 +315,7 @@ void Protocol::callService(ClientId id, std::string_view message) {
   const std::uint32_t service = numberAt(message, 1);
   const std::uint32_t call = numberAt(message, 5);
   const std::uint32_t length = numberAt(message, 9);
-  const auto fail = [&](const std::string& why) {
-    answerService(id, service, call, {}, why);
-  };
+  const auto fail = [&](const std::string& why) { answerService(id, service, call, {}, why); };
   if (read_only_) {
     return fail("the server is read-only: it has no services");
   }
@@ -406,10 +404,9 @@ void Protocol::answerParameters(ClientId client, const std::vector<ParameterValu
 void Protocol::answerService(ClientId client, std::size_t service, std::uint32_t call,
                              const Json& answer, const std::string& why) {
   if (!why.empty()) {
-    return sendJson(client, {{"op", "serviceCallFailure"},
-                             {"serviceId", service},
-                             {"callId", call},
-                             {"message", why}});
+    return sendJson(
+        client,
+        {{"op", "serviceCallFailure"}, {"serviceId", service}, {"callId", call}, {"message", why}});
   }
   constexpr std::string_view kEncoding = "json";
   std::string out;

@@ -1,6 +1,6 @@
 // Foxglove's WebSocket protocol (subprotocols foxglove.websocket.v1 and foxglove.sdk.v1, the same
-// under two names): channels, subscriptions, parameters and services. Messages of channels are JSON.
-// All of it belongs to the server's thread, except where noted.
+// under two names): channels, subscriptions, parameters and services. Messages of channels are
+// JSON. All of it belongs to the server's thread, except where noted.
 //
 // https://github.com/foxglove/ws-protocol
 #pragma once
@@ -101,9 +101,9 @@ class Protocol : public WebClients {
     std::atomic<int> subscribers{0};
   };
   struct Client {
-    std::map<std::uint32_t, ChannelId> subscriptions;      ///< by the client's number
-    std::multimap<ChannelId, std::uint32_t> by_channel;    ///< the same
-    std::set<std::string> watched;                     ///< parameters
+    std::map<std::uint32_t, ChannelId> subscriptions;    ///< by the client's number
+    std::multimap<ChannelId, std::uint32_t> by_channel;  ///< the same
+    std::set<std::string> watched;                       ///< parameters
     bool watches_all = false;
   };
 

@@ -19,8 +19,9 @@ constexpr std::string_view kTokenKey = "token=";
 
 std::string lower(std::string_view text) {
   std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : static_cast<char>(c); });
+  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : static_cast<char>(c);
+  });
   return out;
 }
 
@@ -39,9 +40,8 @@ std::string inUrl(const std::string& address) {
 /// The values of the header Host that name this server.
 std::vector<std::string> hostsOf(const WebAccess& access) {
   std::vector<std::string> names;
-  for (const std::string& name :
-       {std::string("localhost"), std::string("127.0.0.1"), std::string("[::1]"),
-        inUrl(access.address)}) {
+  for (const std::string& name : {std::string("localhost"), std::string("127.0.0.1"),
+                                  std::string("[::1]"), inUrl(access.address)}) {
     names.push_back(fmt::format("{}:{}", lower(name), access.port));
   }
   return names;
@@ -56,8 +56,9 @@ bool sameSecret(std::string_view given, std::string_view secret) {
   unsigned char difference = given.size() == secret.size() ? 0 : 1;
   for (std::size_t i = 0; i < given.size(); ++i) {
     difference = static_cast<unsigned char>(
-        difference | (static_cast<unsigned char>(given[i]) ^
-                      static_cast<unsigned char>(secret[i % std::max<std::size_t>(1, secret.size())])));
+        difference |
+        (static_cast<unsigned char>(given[i]) ^
+         static_cast<unsigned char>(secret[i % std::max<std::size_t>(1, secret.size())])));
   }
   return difference == 0;
 }

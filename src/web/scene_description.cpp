@@ -104,9 +104,9 @@ Json driveDescription(const DriveSpec& drive, std::pair<double, double> range) {
   if (acceleration == 0.0) {  // a scene without a profile: to the largest speed in ten seconds
     acceleration = 0.1 * std::max(1.0, fastest);
   }
-  return {{"name", drive.name},         {"motor", drive.motor.has_value()},
-          {"speed", drive.speed},       {"lowest", range.first},
-          {"highest", range.second},    {"max_acceleration", acceleration},
+  return {{"name", drive.name},      {"motor", drive.motor.has_value()},
+          {"speed", drive.speed},    {"lowest", range.first},
+          {"highest", range.second}, {"max_acceleration", acceleration},
           {"max_jerk", jerk}};
 }
 
@@ -133,14 +133,14 @@ Json sceneDescription(const Twin& twin, bool read_only) {
   }
   for (const ControllerSpec& one : scene.controllers) {
     const ControllerInfo& info = *findController(one.type);
-    controllers.push_back(
-        {{"name", one.name},
-         {"type", one.type},
-         {"parameters",
-          numbersDescription(parametersOf(info, one), info.parameters, info.settings)}});
+    controllers.push_back({{"name", one.name},
+                           {"type", one.type},
+                           {"parameters", numbersDescription(parametersOf(info, one),
+                                                             info.parameters, info.settings)}});
   }
-  return {{"name", scene.name},       {"step", scene.stepSeconds()}, {"read_only", read_only},
-          {"systems", systems},       {"drives", drives},            {"controllers", controllers}};
+  return {{"name", scene.name},     {"step", scene.stepSeconds()},
+          {"read_only", read_only}, {"systems", systems},
+          {"drives", drives},       {"controllers", controllers}};
 }
 
 }  // namespace whirl_twin

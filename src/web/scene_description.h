@@ -1,5 +1,5 @@
-// What the page must know of a scene: its systems with their coordinates, parameters and inputs, its
-// drives and controllers, with units and ranges.
+// What the page must know of a scene: its systems with their coordinates, parameters and inputs,
+// its drives and controllers, with units and ranges.
 #pragma once
 
 #include <string>

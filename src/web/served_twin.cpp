@@ -17,34 +17,37 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kMinStep = 10'000;                  // ns, of the fixed-rate loop
-constexpr std::chrono::milliseconds kTaskPoll{2};          // between looks at the queue
-constexpr std::size_t kMaxTasks = 64;                      // that wait
+constexpr std::int64_t kMinStep = 10'000;          // ns, of the fixed-rate loop
+constexpr std::chrono::milliseconds kTaskPoll{2};  // of the queue
+constexpr std::size_t kMaxTasks = 64;              // that wait
 constexpr const char* kBrowser = "a client of the web server";
 
 using Fields = std::vector<std::pair<std::string, std::string>>;
 
 /// With the same fields as the services of the nodes.
 std::vector<ServiceInfo> servicesOfTwin() {
-  return {{"pause", "stops simulated time", {}},
-          {"resume", "continues", {}},
-          {"reset", "to the scene's start and parameters", {}},
-          {"step", "a number of steps while paused", {{"steps", "integer"}}},
-          {"set_speed",
-           "moves a drive to a speed [rad/s]",
-           {{"drive", "string"},
-            {"speed", "number"},
-            {"max_acceleration", "number"},
-            {"max_jerk", "number"}}},
-          {"set_input",
-           "holds an input at a value for a duration [s, simulated]",
-           {{"system", "string"}, {"input", "string"}, {"value", "number"}, {"duration", "number"}}},
-          {"set_real_time_factor", "simulated seconds per second; 0: fastest", {{"factor", "number"}}},
-          {"acknowledge", "alerts of a system and type; \"\": any", {{"system", "string"}, {"type", "string"}}},
-          {"reset_alarms", "clears latched alerts", {}},
-          {"inhibit",
-           "alerts of a system for a duration [s]",
-           {{"system", "string"}, {"duration", "number"}}}};
+  return {
+      {"pause", "stops simulated time", {}},
+      {"resume", "continues", {}},
+      {"reset", "to the scene's start and parameters", {}},
+      {"step", "a number of steps while paused", {{"steps", "integer"}}},
+      {"set_speed",
+       "moves a drive to a speed [rad/s]",
+       {{"drive", "string"},
+        {"speed", "number"},
+        {"max_acceleration", "number"},
+        {"max_jerk", "number"}}},
+      {"set_input",
+       "holds an input at a value for a duration [s, simulated]",
+       {{"system", "string"}, {"input", "string"}, {"value", "number"}, {"duration", "number"}}},
+      {"set_real_time_factor", "simulated seconds per second; 0: fastest", {{"factor", "number"}}},
+      {"acknowledge",
+       "alerts of a system and type; \"\": any",
+       {{"system", "string"}, {"type", "string"}}},
+      {"reset_alarms", "clears latched alerts", {}},
+      {"inhibit",
+       "alerts of a system for a duration [s]",
+       {{"system", "string"}, {"duration", "number"}}}};
 }
 
 const std::vector<ServiceInfo>& services() {
@@ -59,8 +62,7 @@ std::size_t ringCapacityOf(const Scene& scene) {
                                  scene.source, static_cast<double>(kMinStep) * 1.0e-9,
                                  scene.stepSeconds()));
   }
-  return static_cast<std::size_t>(
-      std::clamp<std::int64_t>(500'000'000 / scene.step, 64, 100'000));
+  return static_cast<std::size_t>(std::clamp<std::int64_t>(500'000'000 / scene.step, 64, 100'000));
 }
 
 FixedRateLoop::Options optionsOf(const Scene& scene, RealtimeMode mode) {
@@ -71,9 +73,8 @@ FixedRateLoop::Options optionsOf(const Scene& scene, RealtimeMode mode) {
 }
 
 std::int64_t stepsBetween(const Scene& scene, double rate) {
-  return rate == 0.0
-             ? 1
-             : std::max<std::int64_t>(1, std::llround(1.0 / (rate * scene.stepSeconds())));
+  return rate == 0.0 ? 1
+                     : std::max<std::int64_t>(1, std::llround(1.0 / (rate * scene.stepSeconds())));
 }
 
 Json answerJson(bool done, const std::string& message) {

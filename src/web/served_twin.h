@@ -1,8 +1,8 @@
 // A twin that runs in real time with its monitor and a web server in one process, without ROS.
 //
-// Threads: the loop steps and writes records into a ring; WebPublisher takes them, monitors them and
-// makes messages; the server's thread does input and output; the thread of run() carries out what
-// clients request. Only the ring and the command queue of LiveTwin touch the loop.
+// Threads: the loop steps and writes records into a ring; WebPublisher takes them, monitors them
+// and makes messages; the server's thread does input and output; the thread of run() carries out
+// what clients request. Only the ring and the command queue of LiveTwin touch the loop.
 #pragma once
 
 #include <cstdint>
@@ -49,8 +49,7 @@ class ServedTwin : private WebRequests {
   using Task = std::function<void()>;
 
   bool setParameters(ClientId client, std::vector<ParameterValue> values, std::string id) override;
-  bool callService(ClientId client, std::size_t service, std::uint32_t call,
-                   Json request) override;
+  bool callService(ClientId client, std::size_t service, std::uint32_t call, Json request) override;
   void carryOut(ClientId client, const std::vector<ParameterValue>& values, const std::string& id);
   void carryOut(ClientId client, std::size_t service, std::uint32_t call, const Json& request);
   CommandResult commandOf(const std::string& service, const Json& request);

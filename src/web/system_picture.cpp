@@ -150,18 +150,17 @@ Json SystemPicture::take(const Observer& observer, const Dynamics& dynamics) {
   const state::Instant now = observer.instant();
   const bool runs = observer.status(system_) == StepStatus::kOk;
   const Sketch drawn = runs ? sketch(observer, dynamics) : Sketch{};
-  Json json = {{"step", now.step},
-               {"time", now.time},
-               {"stopped", observer.stopReason(system_)},
-               {"speed", observer.moment(system_).speed},
-               {"angle", observer.moment(system_).angle},
-               {"magnification", rotor_ ? magnification_ : 1.0},
-               {"names", names_},
-               {"sketch", drawn.empty() ? Json() : sketchJson(drawn)},
-               {"tracer", drawn.has_tracer
-                              ? Json{drawn.tracer.x, drawn.tracer.y, drawn.tracer.z}
-                              : Json()},
-               {"samples", {{"time", times_}, {"speed", speeds_}, {"values", values_}}}};
+  Json json = {
+      {"step", now.step},
+      {"time", now.time},
+      {"stopped", observer.stopReason(system_)},
+      {"speed", observer.moment(system_).speed},
+      {"angle", observer.moment(system_).angle},
+      {"magnification", rotor_ ? magnification_ : 1.0},
+      {"names", names_},
+      {"sketch", drawn.empty() ? Json() : sketchJson(drawn)},
+      {"tracer", drawn.has_tracer ? Json{drawn.tracer.x, drawn.tracer.y, drawn.tracer.z} : Json()},
+      {"samples", {{"time", times_}, {"speed", speeds_}, {"values", values_}}}};
   times_.clear();
   speeds_.clear();
   for (std::vector<double>& values : values_) {

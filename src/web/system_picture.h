@@ -1,5 +1,5 @@
-// The picture of a system for the page: its sketch (mechanics/sketch.h) at the newest state, and the
-// samples of its motion since the last picture. The motion of a rotor is magnified.
+// The picture of a system for the page: its sketch (mechanics/sketch.h) at the newest state, and
+// the samples of its motion since the last picture. The motion of a rotor is magnified.
 #pragma once
 
 #include <cstddef>

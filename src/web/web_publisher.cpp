@@ -122,10 +122,9 @@ void WebPublisher::addChannels(const Twin& twin, bool read_only) {
   }
   addChannel<state::LoopStatistics>("", true);
   addChannel<state::MonitorStatus>("", true);
-  const Json alerts = {{"type", "object"},
-                       {"properties",
-                        {{"alerts",
-                          {{"type", "array"}, {"items", messageSchema<state::Alert>()}}}}}};
+  const Json alerts = {
+      {"type", "object"},
+      {"properties", {{"alerts", {{"type", "array"}, {"items", messageSchema<state::Alert>()}}}}}};
   channels_[kAlertsTopic] =
       protocol_.addChannel(kAlertsTopic, state::Alert::kKind.type, alerts.dump(), true);
   channels_[kSceneTopic] = protocol_.addChannel(kSceneTopic, "Scene", objectSchema(), true);
@@ -140,7 +139,8 @@ void WebPublisher::addChannels(const Twin& twin, bool read_only) {
   for (const char* group : {"systems", "controllers"}) {
     for (const Json& one : scene[group]) {
       for (const Json& parameter : one["parameters"]) {
-        protocol_.setParameter({parameter["name"], parameter["value"]});
+        protocol_.setParameter(
+            {parameter["name"].get<std::string>(), parameter["value"].get<double>()});
       }
     }
   }
@@ -237,7 +237,8 @@ void WebPublisher::take(const double* record) {
     }
   }
   const bool moved = !observer_.tellsOnlyChange();
-  state_is_due_ = due && step / thinning_.every() % std::max<std::int64_t>(1, every_ / thinning_.every()) == 0;
+  state_is_due_ =
+      due && step / thinning_.every() % std::max<std::int64_t>(1, every_ / thinning_.every()) == 0;
   messages_.tell(observer_, due && moved, Sink{*this, now});
   if (orders_due && moved) {
     state_is_due_ = true;
@@ -272,9 +273,9 @@ void WebPublisher::sendPictures() {
 }
 
 void WebPublisher::report(double now) {
-  state::LoopStatistics loop = loopStatistics(live_.twin(), observer_, loop_.status(),
-                                              loop_.timing(), live_.paused(),
-                                              live_.dropped() + left_out_);
+  state::LoopStatistics loop =
+      loopStatistics(live_.twin(), observer_, loop_.status(), loop_.timing(), live_.paused(),
+                     live_.dropped() + left_out_);
   loop.started = started_;
   loop.epoch = live_.resets();
   loop.publish_every = static_cast<std::uint64_t>(thinning_.every());

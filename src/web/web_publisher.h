@@ -1,6 +1,6 @@
 // Takes the records of a running twin from its ring, monitors them, and hands messages to the
-// clients: states, pictures, alerts, margins, statistics. One thread; it computes only what a client
-// receives, and waits for none.
+// clients: states, pictures, alerts, margins, statistics. One thread; it computes only what a
+// client receives, and waits for none.
 #pragma once
 
 #include <atomic>
@@ -29,8 +29,8 @@ namespace whirl_twin {
 
 class WebPublisher {
  public:
-  /// Adds the channels and parameters to the protocol; the server has not started. every: steps from
-  /// one state that clients receive to the next. The referenced objects must outlive it.
+  /// Adds the channels and parameters to the protocol; the server has not started. every: steps
+  /// from one state that clients receive to the next. The referenced objects must outlive it.
   WebPublisher(LiveTwin& live, const FixedRateLoop& loop, WebServer& server, Protocol& protocol,
                const AlarmSettings& alarms, std::int64_t every, bool read_only);
   ~WebPublisher();
@@ -40,8 +40,8 @@ class WebPublisher {
   void start();
   void join();
 
-  /// Any thread: runs a task on the monitor in the publisher's thread, with the wall time [s]. False: too
-  /// many wait.
+  /// Any thread: runs a task on the monitor in the publisher's thread, with the wall time [s].
+  /// False: too many wait.
   bool post(std::function<void(TwinMonitor&, double)> task);
 
  private:

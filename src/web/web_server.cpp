@@ -47,8 +47,9 @@ Response responseOf(const Request& request, http::status status, const std::stri
   response.set(http::field::cache_control, "no-cache");
   response.set("X-Content-Type-Options", "nosniff");
   response.set("Referrer-Policy", "no-referrer");
-  response.set("Content-Security-Policy",
-               "default-src 'self'; connect-src 'self' ws:; frame-ancestors 'none'; base-uri 'none'");
+  response.set(
+      "Content-Security-Policy",
+      "default-src 'self'; connect-src 'self' ws:; frame-ancestors 'none'; base-uri 'none'");
   response.keep_alive(request.keep_alive());
   response.content_length(content.size());
   if (request.method() != http::verb::head) {
@@ -88,8 +89,8 @@ class WebServer::WebSocket : public std::enable_shared_from_this<WebServer::WebS
   void start(const Request& request, const std::string& subprotocol) {
     beast::get_lowest_layer(stream_).expires_never();
     stream_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    stream_.set_option(websocket::stream_base::decorator(
-        [subprotocol](websocket::response_type& response) {
+    stream_.set_option(
+        websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
           response.set(http::field::sec_websocket_protocol, subprotocol);
         }));
     stream_.read_message_max(server_.limits_.message);
@@ -146,9 +147,9 @@ class WebServer::WebSocket : public std::enable_shared_from_this<WebServer::WebS
         return self->end(error);
       }
       const auto data = self->buffer_.cdata();
-      self->server_.clients_->received(
-          self->id_, {static_cast<const char*>(data.data()), data.size()},
-          self->stream_.got_binary());
+      self->server_.clients_->received(self->id_,
+                                       {static_cast<const char*>(data.data()), data.size()},
+                                       self->stream_.got_binary());
       self->buffer_.consume(self->buffer_.size());
       self->read();
     });
@@ -216,18 +217,17 @@ class WebServer::Connection : public std::enable_shared_from_this<WebServer::Con
     parser_->header_limit(kHeaderLimit);
     parser_->body_limit(kBodyLimit);
     stream_.expires_after(kRequestTime);
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](Error error, std::size_t) {
-                       if (error) {
-                         const bool ordinary =
-                             error == http::error::end_of_stream || error == beast::error::timeout ||
-                             error == asio::error::operation_aborted ||
-                             error == asio::error::connection_reset;
-                         self->server_.counts_.malformed += ordinary ? 0 : 1;
-                         return self->disconnect();
-                       }
-                       self->answer();
-                     });
+    http::async_read(
+        stream_, buffer_, *parser_, [self = shared_from_this()](Error error, std::size_t) {
+          if (error) {
+            const bool ordinary =
+                error == http::error::end_of_stream || error == beast::error::timeout ||
+                error == asio::error::operation_aborted || error == asio::error::connection_reset;
+            self->server_.counts_.malformed += ordinary ? 0 : 1;
+            return self->disconnect();
+          }
+          self->answer();
+        });
   }
 
   void disconnect() {
@@ -245,8 +245,7 @@ class WebServer::Connection : public std::enable_shared_from_this<WebServer::Con
     if (std::string why = hostFault(server_.access_, host); !why.empty()) {
       return refuse(http::status::forbidden, why);
     }
-    if (std::string why =
-            originFault(server_.access_, host, viewOf(request[http::field::origin]));
+    if (std::string why = originFault(server_.access_, host, viewOf(request[http::field::origin]));
         !why.empty()) {
       return refuse(http::status::forbidden, why);
     }
@@ -275,9 +274,9 @@ class WebServer::Connection : public std::enable_shared_from_this<WebServer::Con
       return refuse(http::status::bad_request, subprotocolFault(offered));
     }
     if (server_.io_->sockets.size() >= server_.limits_.clients) {
-      return refuse(http::status::service_unavailable,
-                    fmt::format("the server has its {} clients; close one of them",
-                                server_.limits_.clients));
+      return refuse(
+          http::status::service_unavailable,
+          fmt::format("the server has its {} clients; close one of them", server_.limits_.clients));
     }
     const ClientId id = ++server_.io_->last;
     const auto socket = std::make_shared<WebSocket>(server_, std::move(stream_), id);
@@ -348,12 +347,11 @@ WebServer::WebServer(WebAccess access, const WebLimits& limits, WebFiles files)
     io_->acceptor.bind(endpoint);
     io_->acceptor.listen();
   } catch (const boost::system::system_error& failure) {
-    throw RunFailure(
-        failure.code() == asio::error::address_in_use
-            ? fmt::format("--port: {} is in use on {}; --port 0 takes any free one", access_.port,
-                          access_.address)
-            : fmt::format("--address: cannot listen on {} port {}: {}", access_.address,
-                          access_.port, failure.code().message()));
+    throw RunFailure(failure.code() == asio::error::address_in_use
+                         ? fmt::format("--port: {} is in use on {}; --port 0 takes any free one",
+                                       access_.port, access_.address)
+                         : fmt::format("--address: cannot listen on {} port {}: {}",
+                                       access_.address, access_.port, failure.code().message()));
   }
   access_.port = io_->acceptor.local_endpoint().port();
 }

@@ -21,10 +21,10 @@ namespace whirl_twin {
 using ClientId = std::uint64_t;
 
 struct WebLimits {
-  std::size_t clients = 8;               ///< by WebSocket
-  std::size_t connections = 32;          ///< all
-  std::size_t message = 65'536;          ///< [bytes], from a client
-  std::size_t queue = 4 * 1024 * 1024;   ///< [bytes], of messages that wait for a client
+  std::size_t clients = 8;              ///< by WebSocket
+  std::size_t connections = 32;         ///< all
+  std::size_t message = 65'536;         ///< [bytes], from a client
+  std::size_t queue = 4 * 1024 * 1024;  ///< [bytes], of messages that wait for a client
 };
 
 /// A file of the page.
@@ -48,11 +48,11 @@ struct WebMessage {
 
 /// Counts since the start. Any thread.
 struct WebCounts {
-  std::atomic<std::uint64_t> clients{0};   ///< connected now
-  std::atomic<std::uint64_t> sent{0};      ///< messages
-  std::atomic<std::uint64_t> dropped{0};   ///< messages that a slow client lost
-  std::atomic<std::uint64_t> refused{0};   ///< requests: Host, Origin, token, subprotocol, limits
-  std::atomic<std::uint64_t> malformed{0}; ///< frames or requests that break a protocol
+  std::atomic<std::uint64_t> clients{0};    ///< connected now
+  std::atomic<std::uint64_t> sent{0};       ///< messages
+  std::atomic<std::uint64_t> dropped{0};    ///< messages that a slow client lost
+  std::atomic<std::uint64_t> refused{0};    ///< requests: Host, Origin, token, subprotocol, limits
+  std::atomic<std::uint64_t> malformed{0};  ///< frames or requests that break a protocol
 };
 
 /// What happens to clients. Called by the server's thread; must not wait or throw.
