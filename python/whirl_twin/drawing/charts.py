@@ -119,7 +119,7 @@ def draw_charts(figure: dict, ax=None):
     heights = [figure["chart_height"] + max(layout.extra for layout in row) for row in rows]
     top = style.title_space(figure["title"], figure["width"])
     sheet = style.sheet(
-        figure["width"], max(top + sum(heights), 60.0), figure["title"], _description(charts))
+        figure["width"], max(top + sum(heights), 60.0), figure["title"], figure["description"])
     style.add_title(sheet, figure["title"])
     for row, height in zip(rows, heights):
         for column, layout in enumerate(row):
@@ -345,19 +345,3 @@ def _add_second_scales(ax, chart: dict, width: float, height: float) -> None:
         for spine in scale.spines.values():
             spine.set_color(style.GREY)
             spine.set_linewidth(1.2 * PX)
-
-
-def _description(charts: List[dict]) -> str:
-    """A text for screen readers: what is drawn over what."""
-
-    def name(axis: dict) -> str:
-        return axis["label"] + (", " + axis["second"]["label"] if axis["second"] else "")
-
-    texts = []
-    for chart in charts:
-        title = chart["title"] + ": " if chart["title"] else ""
-        names = ", ".join(series["name"] for series in chart["series"] if series["name"])
-        lines = "".join(f" [{line['label']} at {line['at']:.4g}]"
-                        for line in chart["vertical"] + chart["horizontal"] if line["label"])
-        texts.append(f"{title}{name(chart['y'])} over {name(chart['x'])}: {names}{lines}")
-    return "; ".join(texts)

@@ -237,7 +237,7 @@ SKETCH = record({
 _BAR = record({
     "value": number_or_gap, "low": (number_or_gap, None), "high": (number_or_gap, None),
 })
-_SHEET = {"kind": text, "title": _TEXT}
+_SHEET = {"kind": text, "title": _TEXT, "description": _TEXT}
 FIGURES = {
     "charts": record({
         **_SHEET, "columns": (whole(1, 12), 1), "width": (whole(200, 5000), 800),
