@@ -57,8 +57,10 @@ BalanceCorrection balance(const Eigen::MatrixXcd& influence, const Eigen::Vector
   correction.residual = initial + influence * correction.mass_radius;
   correction.rms = correction.residual.norm() / std::sqrt(static_cast<double>(initial.size()));
   const Eigen::VectorXd singular = singularValues(weighted);
-  correction.condition = singular.minCoeff() > 0.0 ? singular.maxCoeff() / singular.minCoeff()
-                                                   : std::numeric_limits<double>::infinity();
+  const bool enough = (weights.array() > 0.0).count() >= influence.cols();
+  correction.condition = enough && singular.minCoeff() > 0.0
+                             ? singular.maxCoeff() / singular.minCoeff()
+                             : std::numeric_limits<double>::infinity();
   return correction;
 }
 

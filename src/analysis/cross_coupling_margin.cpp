@@ -1,8 +1,10 @@
 #include "analysis/cross_coupling_margin.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "algebra/dense.h"
 #include "analysis/mode_tracking.h"
 #include "analysis/polynomial_roots.h"
 
@@ -10,7 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kFirst = 1.0e-6;  // of the largest stiffness
+constexpr double kFirst = 1.0e-6;  // of the stiffness that the station has at rest
 constexpr double kLast = 1.0e6;
 constexpr double kStiffnessStride = 2.0;
 
@@ -55,6 +57,18 @@ class CoupledModes {
   ModeTracker modes_;
 };
 
+/// [N/m], of the rotor at a station, both directions in series: what Q is compared with. The
+/// largest element of the matrix would be that of a stiff support far away. Of a rotor without a
+/// static stiffness that largest element.
+double stiffnessAt(const Linearization& matrices, const Station& station) {
+  const Lu stiffness(matrices.stiffness);
+  const double flexibility = station.along_x.dot(stiffness.solve(station.along_x)) +
+                             station.along_y.dot(stiffness.solve(station.along_y));
+  return flexibility > 0.0 && std::isfinite(2.0 / flexibility)
+             ? 2.0 / flexibility
+             : matrices.stiffness.cwiseAbs().maxCoeff();
+}
+
 }  // namespace
 
 Linearization withCrossCoupling(Linearization matrices, const Station& station,
@@ -93,7 +107,7 @@ std::optional<double> crossCouplingMargin(const LinearRotor& rotor,
   if (before && *before >= 0.0) {
     return 0.0;
   }
-  const double stiffness = rotor.matrices(speed).stiffness.cwiseAbs().maxCoeff();
+  const double stiffness = stiffnessAt(rotor.matrices(speed), stations.at(station));
   double low = 0.0;
   for (double high = kFirst * stiffness; high < kLast * stiffness; high *= kStiffnessStride) {
     const std::optional<double> growth = coupled.growth(high);

@@ -284,6 +284,10 @@ std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed) {
   return allOf(dynamics, cyclicCoordinates(dynamics, speed), speed, zero, zero, zero);
 }
 
+bool isUnsupported(const Dynamics& dynamics, double speed) {
+  return dynamics.linear() && equilibria(dynamics, speed).empty();
+}
+
 bool same(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Equilibrium& a,
           const Equilibrium& b) {
   return sameMotion(dynamics, cyclic, a, b);

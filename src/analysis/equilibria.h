@@ -64,6 +64,10 @@ std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed,
 /// With all conserved momenta zero.
 std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed);
 
+/// Does a constant load act on a linear system along a direction without stiffness? It has no
+/// equilibrium then, and moves away whatever its roots are: nothing is stable.
+bool isUnsupported(const Dynamics& dynamics, double speed);
+
 /// Newton's method from q at rest at a constant speed [rad/s]; nothing if it does not converge.
 std::optional<Eigen::VectorXd> equilibriumNear(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                                double speed);

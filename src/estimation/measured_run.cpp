@@ -40,11 +40,12 @@ std::vector<double> stepsOf(const std::vector<double>& time) {
   return steps;
 }
 
-/// Total variation over consecutive rows whose time increases.
-double variation(const MeasuredColumn& column, const std::vector<double>& time) {
+/// Total variation over consecutive rows, whichever way their time runs: a file may be written
+/// from the newest row to the oldest.
+double variation(const MeasuredColumn& column) {
   double sum = 0.0;
-  for (std::size_t i = 1; i < time.size(); ++i) {
-    sum += time[i] > time[i - 1] ? std::fabs(column.values[i] - column.values[i - 1]) : 0.0;
+  for (std::size_t i = 1; i < column.values.size(); ++i) {
+    sum += std::fabs(column.values[i] - column.values[i - 1]);
   }
   return sum;
 }
@@ -90,8 +91,7 @@ void sortByTime(MeasuredRun& run, std::vector<std::size_t>& rows) {
     }
   }
   for (std::size_t c = 0; c < run.columns.size(); ++c) {
-    if (variation(run.columns[c], run.time) >
-        kAlternating * variation(of_file.columns[c], of_file.time)) {
+    if (variation(run.columns[c]) > kAlternating * variation(of_file.columns[c])) {
       throw InputError(fmt::format(
           "{}in the order of time {} alternates between two motions: must be one run, found two",
           where, inQuotes(run.columns[c].name)));

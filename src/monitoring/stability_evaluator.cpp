@@ -189,6 +189,9 @@ Stability StabilityEvaluator::openStability(const state::Instant& at,
   Stability s = point ? point->stability
                       : reducedStability(linearizationAbout(dynamics, about, rates, speed),
                                          cyclicCoordinates(dynamics, speed));
+  if (!point && isUnsupported(dynamics, speed)) {
+    s.routh.verdict = Verdict::kUncertain;
+  }
   checkThresholds(at.time, speed, s.routh.verdict);
   return s;
 }

@@ -59,6 +59,9 @@ std::string doubtAbout(const SystemAnalysis& a) {
   if (!a.at_equilibrium && isJudgedOnlyAtRest(*a.dynamics)) {
     return "no equilibrium was found at this speed";
   }
+  if (a.dynamics->linear() && a.equilibria.empty()) {
+    return "there is no equilibrium: a constant load acts along a coordinate without stiffness";
+  }
   return a.reduced_stability.omitted > 0
              ? "not proved that all omitted modes are stable"
              : "too near the stability boundary for the numerical precision";
@@ -125,6 +128,9 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
     a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
   } else {
     a.stability = a.reduced_stability = unjudged();
+  }
+  if (dynamics.linear() && a.equilibria.empty()) {
+    a.stability.routh.verdict = a.reduced_stability.routh.verdict = Verdict::kUncertain;
   }
   a.uncertain_because = doubtAbout(a);
   const CriticalSpeedSearch critical_speeds = searchCriticalSpeeds(*heldDynamics(system));

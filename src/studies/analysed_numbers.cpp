@@ -108,7 +108,7 @@ struct AnalysedScene::Results {
   Eigen::VectorXd about;
   bool periodic = false;  ///< evaluated by the multipliers of a periodic motion
   Stability of_point;     ///< of the operating point
-  bool judged = true;     ///< false: no equilibrium of the rotor in its fluid films
+  bool judged = true;     ///< false: no equilibrium, of the rotor in its fluid films or its weight
   std::optional<Stability> stability;
   std::optional<std::vector<CriticalSpeed>> critical_speeds;
   std::optional<double> instability_speed;
@@ -127,7 +127,7 @@ struct AnalysedScene::Results {
         linearization = linearizationAbout(dynamics, point->q, point->v, speed);
       } else {
         about = q;
-        judged = !isJudgedOnlyAtRest(dynamics);
+        judged = !isJudgedOnlyAtRest(dynamics) && !isUnsupported(dynamics, speed);
         linearization = dynamics.linearization(q, v, dynamics.acceleration(q, v, start), start);
       }
     }

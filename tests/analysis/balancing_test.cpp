@@ -128,6 +128,22 @@ TEST(Balancing, IntervalsHoldTheTruthIn95Of100) {
   }
 }
 
+// One reading of two planes: infinitely many pairs of masses bring it to zero.
+TEST(Balancing, OfFewerReadingsThanPlanesIsUndetermined) {
+  Eigen::MatrixXcd influence(1, 2);
+  influence << 1.0e-2, 1.0e-2;
+  const Eigen::VectorXcd initial = Eigen::VectorXcd::Constant(1, {1.0e-6, 5.0e-7});
+  const auto correction = balance(influence, initial, Eigen::VectorXd::Ones(1));
+  EXPECT_TRUE(std::isinf(correction.condition));
+  EXPECT_LT(correction.rms, 1.0e-18);
+  // As few that have a weight.
+  const Runs runs = simulatedRuns();
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(4);
+  weights[0] = 1.0;
+  EXPECT_TRUE(std::isinf(
+      balance(influenceOfPlanes(runs.initial, runs.trials, 2), runs.initial, weights).condition));
+}
+
 TEST(Balancing, WithoutSpareReadingsNothingIsKnownOfErrors) {
   const Runs runs = simulatedRuns();
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(4);

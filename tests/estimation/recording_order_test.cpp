@@ -117,13 +117,15 @@ TEST(RecordingOrder, WhateverBecomesOfARecordingTheMotionComesOutOrTheCauseIsNam
         rows.insert(dice(2) == 0 ? rows.end() : rows.begin() + dice(50), again);
       }
     }
-    const int order = dice(4);
+    const int order = dice(5);
     if (order == 1) {
       std::shuffle(rows.begin(), rows.end(), random);
     } else if (order == 2) {
       std::rotate(rows.begin(), rows.begin() + dice(static_cast<int>(rows.size())), rows.end());
     } else if (order == 3) {
       std::stable_partition(rows.begin(), rows.end(), [&](const Row&) { return dice(2) == 0; });
+    } else if (order == 4) {  // the newest first
+      std::reverse(rows.begin(), rows.end());
     }
     try {
       expectMotion(settled(rows).data, motion, different);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <regex>
 #include <set>
 
 #include "twin_program.h"
@@ -278,6 +279,25 @@ TEST(Analyze, ARotorWithWeightRestsWhereItSags) {
   ASSERT_EQ(rotor["equilibria"].size(), 1u);
   EXPECT_NEAR(rotor["equilibria"][0]["state"]["y"], -9.80665e-4, 1e-15);
   EXPECT_NEAR(rotor["linearization"]["about"]["y"], -9.80665e-4, 1e-15);
+}
+
+// Its bearings carry nothing along y: the rotor falls, as twin simulate shows, and is not stable.
+TEST(Analyze, AWeightThatNothingCarriesIsNoStableMotion) {
+  const std::string shaft =
+      "{model: flexible_rotor, parameters: {youngs_modulus: 2.1e+11, density: 7850, speed: 100, "
+      "gravity_on_shaft: true, elements: [{length: 0.1, outer_diameter: 0.05, count: 8}], discs: "
+      "[{node: 4, mass: 15, polar_inertia: 0.1, transverse_inertia: 0.06}], bearings: [{node: 0, "
+      "kxx: 1e+7, kyy: KYY, cxx: 100, cyy: 100}, {node: 8, kxx: 1e+7, kyy: KYY, cxx: 100, "
+      "cyy: 100}]}}";
+  const auto carried = [&](const std::string& kyy) {
+    return analyzed(std::regex_replace(shaft, std::regex("KYY"), kyy));
+  };
+  const Json falls = carried("0.0");
+  EXPECT_TRUE(falls["equilibria"].empty());
+  EXPECT_EQ(falls["routh"]["verdict"], "uncertain");
+  EXPECT_NE(falls["uncertain_because"].get<std::string>().find("a constant load acts along"),
+            std::string::npos);
+  EXPECT_EQ(carried("1e+6")["routh"]["verdict"], "asymptotically_stable");
 }
 
 TEST(Analyze, AShaftWithoutBearingsNeitherRestsNorIsUnstable) {
