@@ -18,7 +18,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kStepsAtOnce = 16;  // between two looks at the clock
+constexpr std::int64_t kStepsAtOnce = 16;  // between two readings of the clock
 constexpr std::chrono::milliseconds kLookPeriod{50};
 
 struct SavedHead {

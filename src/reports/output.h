@@ -7,14 +7,18 @@
 #include <string>
 #include <string_view>
 
+namespace nlohmann {
+
 /// Null where there is none.
 template <class Value>
-struct nlohmann::adl_serializer<std::optional<Value>> {
+struct adl_serializer<std::optional<Value>> {
   template <class AnyJson>
   static void to_json(AnyJson& json, const std::optional<Value>& value) {
     json = value ? AnyJson(*value) : AnyJson();
   }
 };
+
+}  // namespace nlohmann
 
 namespace whirl_twin {
 

@@ -54,6 +54,9 @@ SimulationPlan planSimulation(const SimulationRequest& request);
 /// Of a scene that was read before; the request's path is not used.
 SimulationPlan planSimulation(Scene scene, const SimulationRequest& request);
 
+/// Warns that a run without the processes of a scene's external controllers differs.
+void warnOfExternalControllers(const Scene& scene);
+
 class Simulation {
  public:
   /// Throws InputError for a checkpoint that cannot be resumed.

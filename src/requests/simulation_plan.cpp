@@ -124,6 +124,17 @@ SimulationPlan planSimulation(Scene scene, const SimulationRequest& request) {
   return plan;
 }
 
+void warnOfExternalControllers(const Scene& scene) {
+  for (const ControllerSpec& controller : scene.controllers) {
+    if (controller.type == "external") {
+      complain(
+          fmt::format("twin: controllers.{}: runs in another process and acts only live; here its "
+                      "output is 0\n",
+                      controller.name));
+    }
+  }
+}
+
 std::string SimulationPlan::asked() const {
   int substeps = 1;
   std::size_t members = 0;

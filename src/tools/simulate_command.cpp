@@ -87,18 +87,6 @@ void requireOneEnsemble(const SimulationPlan& plan) {
   }
 }
 
-/// Warns that a run without the processes of a scene's external controllers differs.
-void sayWhatIsMissing(const Scene& scene) {
-  for (const ControllerSpec& controller : scene.controllers) {
-    if (controller.type == "external") {
-      complain(
-          fmt::format("twin: controllers.{}: runs in another process and acts only live; here its "
-                      "output is 0\n",
-                      controller.name));
-    }
-  }
-}
-
 int simulate(const SimulationRequest& request) {
   if (request.output) {
     extensionOf(*request.output);
@@ -116,7 +104,7 @@ int simulate(const SimulationRequest& request) {
     throw InputError("--measure: must not be given with --resume");
   }
   const SimulationPlan plan = planSimulation(request);
-  sayWhatIsMissing(plan.scene);
+  warnOfExternalControllers(plan.scene);
   if (request.members) {
     requireOneEnsemble(plan);
   }

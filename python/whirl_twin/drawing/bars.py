@@ -80,8 +80,7 @@ def _sheet(chart: dict, names: list, height: float):
     rows = style.legend_rows(names, width)
     plot_top = top + subtitle_height + style.LEGEND_ROW * rows + 8.0
     sheet = style.sheet(
-        _WIDTH, plot_top + height + _FOOT, chart["title"],
-        f"{chart['x']['label']} of " + ", ".join(group["name"] for group in chart["groups"]))
+        _WIDTH, plot_top + height + _FOOT, chart["title"], chart["description"])
     style.add_title(sheet, chart["title"])
     if subtitle:
         style.add_text(sheet, 0.5 * _WIDTH, top - 4.0, subtitle, size, "center", "top", style.GREY)

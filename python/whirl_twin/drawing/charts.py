@@ -79,8 +79,8 @@ class _Layout:
     def finish_x(self, width: float) -> None:
         """Ends of the x axis for a width of the plot [px]."""
         if not self.chart["x"]["tight"] and not self.chart["equal_aspect"]:
-            ticks = ticks_of(
-                self.chart["x"], *self.x, most_across(self.chart["x"], width, *self.x, inside=False))
+            most = most_across(self.chart["x"], width, *self.x, inside=False)
+            ticks = ticks_of(self.chart["x"], *self.x, most)
             self.x = (ticks[0], ticks[-1])
 
 
@@ -119,7 +119,7 @@ def draw_charts(figure: dict, ax=None):
     heights = [figure["chart_height"] + max(layout.extra for layout in row) for row in rows]
     top = style.title_space(figure["title"], figure["width"])
     sheet = style.sheet(
-        figure["width"], max(top + sum(heights), 60.0), figure["title"], _description(charts))
+        figure["width"], max(top + sum(heights), 60.0), figure["title"], figure["description"])
     style.add_title(sheet, figure["title"])
     for row, height in zip(rows, heights):
         for column, layout in enumerate(row):
@@ -174,7 +174,7 @@ def _draw_chart(
         if high > low:
             ax.axvspan(low, high, facecolor=band["color"], edgecolor="none", zorder=0.2)
     reference = {"color": style.GREY, "linewidth": 1.2 * PX, "linestyle": style.dash_of([6.0, 4.0]),
-                 "zorder": 0.9}
+                 "zorder": 1.5}
     for i, series in enumerate(chart["series"]):
         x = shown(series["x"], chart["x"]["logarithmic"])
         y = shown(series["y"], chart["y"]["logarithmic"])
@@ -189,8 +189,11 @@ def _draw_chart(
         if series["name"]:
             handles.append(Patch(facecolor=series["fill"], edgecolor=style.GREY, linewidth=0.6)
                            if series["fill"] else Line2D([], [], **_look(series, pen)))
-        curves.append((np.column_stack((x, y)), pen["width"],
-                       series["line"] and not series["fill"], series["marks"] != "none"))
+        spots = np.column_stack((x, y))
+        if series["fill"] and len(spots):
+            spots = np.vstack((spots, spots[:1]))  # a label is not across its border
+        curves.append((spots, pen["width"], series["line"] or series["fill"] is not None,
+                       series["marks"] != "none"))
     # After the curves: ax.lines[i] is the series i.
     for line in chart["vertical"]:
         if layout.x[0] <= line["at"] <= layout.x[1]:
@@ -342,19 +345,3 @@ def _add_second_scales(ax, chart: dict, width: float, height: float) -> None:
         for spine in scale.spines.values():
             spine.set_color(style.GREY)
             spine.set_linewidth(1.2 * PX)
-
-
-def _description(charts: List[dict]) -> str:
-    """A text for screen readers: what is drawn over what."""
-
-    def name(axis: dict) -> str:
-        return axis["label"] + (", " + axis["second"]["label"] if axis["second"] else "")
-
-    texts = []
-    for chart in charts:
-        title = chart["title"] + ": " if chart["title"] else ""
-        names = ", ".join(series["name"] for series in chart["series"] if series["name"])
-        lines = "".join(f" [{line['label']} at {line['at']:.4g}]"
-                        for line in chart["vertical"] + chart["horizontal"] if line["label"])
-        texts.append(f"{title}{name(chart['y'])} over {name(chart['x'])}: {names}{lines}")
-    return "; ".join(texts)

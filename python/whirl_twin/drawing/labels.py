@@ -145,15 +145,17 @@ def label_chart(ax, chart: dict, curves: List[Tuple[np.ndarray, float, bool, boo
             _note(ax, places, x, y, note)
 
 
-def _annotate(ax, text: str, at, coordinates, shift, rotated: bool, color: str, covers: bool, **more):
-    """A text whose middle is `shift` [px] from a point."""
+def _annotate(
+    ax, text: str, at, coordinates, shift, rotated: bool, color: str, covers: bool, **more
+) -> None:
+    """A text whose middle is `shift` [px] from a point; on white where it covers something."""
+    white = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.5}
     ax.annotate(
         text, xy=at, xycoords=coordinates, xytext=(shift[0] * style.PX, -shift[1] * style.PX),
         textcoords="offset points", ha="center", va="center_baseline" if not rotated else "center",
         rotation=90 if rotated else 0, size=style.NOTE * style.PX, color=color, zorder=5,
         rotation_mode="anchor", annotation_clip=False,
-        bbox={"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.5} if covers else None,
-        **more,
+        bbox=white if covers else None, **more,
     )
 
 
@@ -175,8 +177,8 @@ def _label_upright(ax, places: LabelPlaces, x: float, line: dict) -> None:
     while not beside or y + length < places.height:
         beside += [(x - 3.0 - HEIGHT, y, HEIGHT, length), (x + 3.0, y, HEIGHT, length)]
         y += 10.0
-    for away in (3.0, 20.0, 40.0, 60.0):
-        for y in range(5, 66, 10):
+    for away in (3.0, 12.0, 24.0):  # farther away it would be ambiguous
+        for y in range(5, max(6, int(places.height - HEIGHT)), 10):
             beside += [(x + away, y, length, HEIGHT), (x - away - length, y, length, HEIGHT)]
     _place_label(ax, places, line, beside, (line["at"], 1.0), ("data", "axes fraction"), (x, 0.0))
 

@@ -91,8 +91,7 @@ def _sheet(chart: dict, y: np.ndarray, names: list) -> Tuple:
     top = style.title_space(chart["title"], _WIDTH) + style.LEGEND_ROW * rows + 16.0
     height = _HEIGHT - 44.0 - 58.0
     sheet = style.sheet(
-        _WIDTH, top + height + 58.0, chart["title"],
-        f"{chart['label']} over {chart['x']['label']} and {chart['y']['label']}")
+        _WIDTH, top + height + 58.0, chart["title"], chart["description"])
     style.add_title(sheet, chart["title"])
     ax = style.add_axes(sheet, left, top, width, height)
     return sheet, ax, style.add_axes(sheet, left + width + 22.0, top, 20.0, height)
@@ -155,7 +154,7 @@ def _set_bar(bar, chart: dict, limits: Tuple[float, float]) -> None:
     fields = {"logarithmic": False, "degrees": False}
     bar.ax.yaxis.set_major_locator(Ticks(fields, lambda a, b: 9))
     bar.ax.yaxis.set_major_formatter(TickLabels(False))
-    bar.ax.tick_params(length=4.0 * PX, color=style.GREY, labelsize=style.TICK * PX, labelleft=False)
+    bar.ax.tick_params(length=4.0 * PX, color=style.GREY, labelsize=style.TICK * PX)
     bar.ax.minorticks_off()
     bar.ax.yaxis.get_offset_text().set_size(style.TICK * PX)
     bar.ax.yaxis.get_offset_text().set_color(style.BLACK)

@@ -49,9 +49,10 @@ def svg(figure, prefix: str = "") -> str:
         lambda name: f' id="{prefix}{name.group(1)}"' if name.group(1) in used else "", text)
     text = re.sub(r'(href="#|url\(#)', lambda start: start.group() + prefix, text)
     head, body = text.split(">", 1)
-    title = f"\n<title>{escape(figure.whirl_twin_title, quote=False)}</title>" if figure.whirl_twin_title else ""
+    title, description = figure.whirl_twin_title, figure.whirl_twin_description
     return (
-        f'{head} role="img" style="stroke-linejoin:round;stroke-linecap:butt">{title}'
-        f"\n<desc>{escape(figure.whirl_twin_description, quote=False)}</desc>{body}"
+        f'{head} role="img" style="stroke-linejoin:round;stroke-linecap:butt">'
+        + (f"\n<title>{escape(title, quote=False)}</title>" if title else "")
+        + f"\n<desc>{escape(description, quote=False)}</desc>{body}"
     )
 

@@ -44,7 +44,7 @@ def _numeric_columns(table: dict) -> List[bool]:
     columns = []
     for i in range(len(table["head"])):
         cells = [row[i]["text"] for row in table["rows"] if i < len(row) and row[i]["text"]]
-        columns.append(bool(cells) and all(_is_numeric(cell) or cell in "–—-" for cell in cells))
+        columns.append(bool(cells) and all(_is_numeric(c) or c in ("–", "—", "-") for c in cells))
     return columns
 
 

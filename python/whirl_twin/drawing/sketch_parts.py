@@ -205,7 +205,8 @@ class PartDrawing:
     def _cylinder(self, rod: dict) -> None:
         """A round bar with flat ends; between two equally thick ones there is no line."""
         radius = max(rod["radius"], 1.1 / self._scale)
-        plate = {"at": rod["from"], "axis": rod["to"] - rod["from"], "radius": radius, "thickness": 0.0}
+        plate = {"at": rod["from"], "axis": rod["to"] - rod["from"], "radius": radius,
+                 "thickness": 0.0}
         count = int(min(max(8.0 * math.sqrt(radius * self._scale), 12.0), 60.0))
         angles = np.linspace(0.0, 2.0 * math.pi, count, endpoint=False)
         along = self._view.at(plate["axis"])
@@ -234,7 +235,7 @@ class PartDrawing:
         return count == 1 or most > 1.001 * least and radius >= most
 
     def _lines_along(self, plate: dict, along: np.ndarray, heights) -> np.ndarray:
-        """Where lines along a cylinder begin, on its visible side, at heights [radii] on the sheet."""
+        """Where lines along the visible side of a cylinder begin, at heights [radii] on the sheet."""
         normal = np.array([-along[1], along[0]]) / math.hypot(*along)
         normal = normal if normal[1] >= 0.0 else -normal
         _, zero, side = disc_axes(plate)

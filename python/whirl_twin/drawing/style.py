@@ -180,14 +180,13 @@ def add_axes(figure: Figure, left: float, top: float, width: float, height: floa
 
 
 def add_text(
-    figure: Figure, x: float, y: float, text: str, size: float, ha: str = "left", va: str = "center",
-    color: str = BLACK, bold: bool = False, **more,
-):
+    figure: Figure, x: float, y: float, text: str, size: float, ha: str = "left",
+    va: str = "center", color: str = BLACK,
+) -> None:
     """A text at a place of a figure [px from its upper left corner]."""
     width, height = figure.get_size_inches() * DPI
-    return figure.text(
-        x / width, 1.0 - y / height, text, size=size * PX, ha=ha, va=va, color=color,
-        weight="bold" if bold else "normal", **more,
+    figure.text(
+        x / width, 1.0 - y / height, text, size=size * PX, ha=ha, va=va, color=color
     )
 
 
