@@ -14,8 +14,7 @@ namespace whirl_twin {
 /// `progress`: None, or called with the part of the work that is done, 0 to 1. Throws what the work
 /// throws; KeyboardInterrupt, or the exception of the callback, after the work has ended: at the
 /// next step, or, where work cannot be divided, when it is done.
-void runListening(const pybind11::object& progress,
-                  const std::function<void(WorkProgress&)>& work);
+void runListening(const pybind11::object& progress, const std::function<void(WorkProgress&)>& work);
 
 /// Looks for Ctrl-C, called without the interpreter's lock. Throws error_already_set.
 void requireNoSignal();

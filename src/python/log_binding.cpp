@@ -79,8 +79,8 @@ class TopicTables final : public RecordingWriter {
 template <class Number>
 py::array arrayOf(std::vector<Number> values, const std::vector<py::ssize_t>& shape) {
   auto* const kept = new std::vector<Number>(std::move(values));
-  const py::capsule owner(
-      kept, [](void* memory) { delete static_cast<std::vector<Number>*>(memory); });
+  const py::capsule owner(kept,
+                          [](void* memory) { delete static_cast<std::vector<Number>*>(memory); });
   return py::array_t<Number>(shape, kept->data(), owner);
 }
 
@@ -165,7 +165,8 @@ py::tuple readLog(const std::string& path, const std::string& prefix, const py::
       work.begin(path, static_cast<std::int64_t>(all), true);
       work.show(static_cast<std::int64_t>(bytes));
     };
-    log = exportLog(path, prefix, [](const std::string&) { return true; }, tables, advanced);
+    log = exportLog(
+        path, prefix, [](const std::string&) { return true; }, tables, advanced);
   });
   py::list defects;
   for (const LogDefect& defect : log.defects) {

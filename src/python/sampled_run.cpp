@@ -42,9 +42,8 @@ SampledRun::SampledRun(const Twin& twin, std::vector<std::size_t> systems, std::
   }
   const std::vector<ControllerSpec>& controllers = twin.scene().controllers;
   for (std::size_t i = 0; i < controllers.size(); ++i) {
-    if (std::any_of(systems.begin(), systems.end(), [&](std::size_t system) {
-          return involves(controllers[i], system);
-        })) {
+    if (std::any_of(systems.begin(), systems.end(),
+                    [&](std::size_t system) { return involves(controllers[i], system); })) {
       controllers_.push_back(i);
       for (std::size_t k = 0; k < controllers[i].acted_on.size(); ++k) {
         const ActedInput& acted = controllers[i].acts_on[k];

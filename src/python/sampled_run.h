@@ -52,9 +52,7 @@ class SampledRun final : public SampleWriter {
   };
 
   void addSystem(std::size_t system);
-  void put(double value) {
-    values_.get()[row_++ * samples_ + written_] = value;
-  }
+  void put(double value) { values_.get()[row_++ * samples_ + written_] = value; }
 
   const Twin& twin_;
   std::vector<Sampled> sampled_;

@@ -87,8 +87,8 @@ std::size_t SteppedTwin::systemNamed(const std::string& name) const {
       return names.size() - 1;
     }
   }
-  throw InputError(fmt::format("no system '{}' in {}{}", printable(name), scene_.source,
-                               hint(name, names)));
+  throw InputError(
+      fmt::format("no system '{}' in {}{}", printable(name), scene_.source, hint(name, names)));
 }
 
 void SteppedTwin::setInput(const std::string& system, const std::string& input, double value,

@@ -37,21 +37,23 @@ Document fitOf(const std::string& path, std::optional<std::string> output, bool 
                bool check, const std::string& lcm_prefix, const py::object& progress) {
   const FitRequest request{std::move(output), lcm_prefix, validate_only, check, true};
   Document document;
-  runListening(progress,
-               [&](WorkProgress& work) { document = fitDocument(path, request, work); });
+  runListening(progress, [&](WorkProgress& work) { document = fitDocument(path, request, work); });
   return document;
 }
 
 }  // namespace
 
 void bindStudies(py::module_& module) {
-  module.def("is_optimization", [](const std::string& path) {
-    bool optimization = false;
-    runListening(py::none(), [&](WorkProgress&) {
-      optimization = readStudy(path).optimization.has_value();
-    });
-    return optimization;
-  }, py::arg("study"));
+  module.def(
+      "is_optimization",
+      [](const std::string& path) {
+        bool optimization = false;
+        runListening(py::none(), [&](WorkProgress&) {
+          optimization = readStudy(path).optimization.has_value();
+        });
+        return optimization;
+      },
+      py::arg("study"));
   module.def("sweep", sweepOf, py::arg("study"), py::arg("output"), py::arg("point"),
              py::arg("workers"), py::arg("insist"), py::arg("progress"));
   module.def("fit", fitOf, py::arg("study"), py::arg("output"), py::arg("validate_only"),

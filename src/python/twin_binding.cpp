@@ -1,9 +1,8 @@
 // A twin stepped from Python.
+#include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-
-#include <fmt/format.h>
 
 #include "messages/input_error.h"
 #include "python/conversions.h"
@@ -131,14 +130,14 @@ void bindTwin(py::module_& module) {
       .def("state", stateOf, py::arg("system"))
       .def("names", namesOf, py::arg("system"))
       .def("status", statusOf, py::arg("system"))
-      .def("set_input", putInput, py::arg("system"), py::arg("input"),
-           py::arg("value"), py::arg("duration"))
-      .def("set_parameter", putParameter, py::arg("system"), py::arg("path"),
-           py::arg("value"))
+      .def("set_input", putInput, py::arg("system"), py::arg("input"), py::arg("value"),
+           py::arg("duration"))
+      .def("set_parameter", putParameter, py::arg("system"), py::arg("path"), py::arg("value"))
       .def("parameter", &SteppedTwin::parameter, py::arg("system"), py::arg("path"))
       .def("save", [](SteppedTwin& s) { return py::bytes(s.save()); })
-      .def("restore", [](SteppedTwin& s, const py::bytes& bytes) { s.restore(bytes); },
-           py::arg("state"));
+      .def(
+          "restore", [](SteppedTwin& s, const py::bytes& bytes) { s.restore(bytes); },
+          py::arg("state"));
 }
 
 }  // namespace whirl_twin

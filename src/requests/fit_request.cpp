@@ -53,13 +53,12 @@ Document fitDocument(const std::string& path, const FitRequest& request, WorkPro
     return document;
   }
   bool begun = false;
-  const auto fit =
-      std::make_shared<const ShootingFit>(fitByShooting(*study, [&](int done, int of) {
-        if (!std::exchange(begun, true)) {
-          progress.begin(fmt::format("at most {} iterations", of), of, request.insist);
-        }
-        progress.show(done);
-      }));
+  const auto fit = std::make_shared<const ShootingFit>(fitByShooting(*study, [&](int done, int of) {
+    if (!std::exchange(begun, true)) {
+      progress.begin(fmt::format("at most {} iterations", of), of, request.insist);
+    }
+    progress.show(done);
+  }));
   progress.clear();
   if (request.output) {
     writeScene(*study, *fit, *request.output);
@@ -69,8 +68,9 @@ Document fitDocument(const std::string& path, const FitRequest& request, WorkPro
   document.tables = tables(*fit);
   document.done = fit->converged;
   for (std::size_t run = 0; run < study->runs.size(); ++run) {
-    document.drawings.push_back({std::filesystem::path(study->runs[run].file).stem().string(),
-                                 [study, fit, run] { return figureJson(figure(*study, *fit, run)); }});
+    document.drawings.push_back(
+        {std::filesystem::path(study->runs[run].file).stem().string(),
+         [study, fit, run] { return figureJson(figure(*study, *fit, run)); }});
   }
   return document;
 }

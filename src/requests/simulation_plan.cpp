@@ -11,13 +11,13 @@
 #include "models/model_registry.h"
 #include "reports/asked_cost.h"
 #include "reports/rotor_systems.h"
+#include "requests/durations.h"
+#include "requests/shipped_scenes.h"
+#include "requests/simulation.h"
 #include "scene/drive_reader.h"
 #include "scene/model_context.h"
 #include "scene/scene_reader.h"
 #include "scene/system_setup.h"
-#include "requests/durations.h"
-#include "requests/shipped_scenes.h"
-#include "requests/simulation.h"
 
 namespace whirl_twin {
 

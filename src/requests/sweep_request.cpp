@@ -1,5 +1,3 @@
-#include "requests/study_requests.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include "messages/input_error.h"
 #include "reports/asked_cost.h"
 #include "reports/study_report.h"
+#include "requests/study_requests.h"
 #include "studies/answers.h"
 #include "studies/block_evaluator.h"
 #include "studies/hdf5_results.h"

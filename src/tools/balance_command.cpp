@@ -9,12 +9,12 @@
 #include "reports/csv_table.h"
 #include "reports/rotor_record.h"
 #include "reports/unbalance_report.h"
+#include "requests/shipped_scenes.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/balancing_runs.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "requests/shipped_scenes.h"
 
 namespace whirl_twin {
 

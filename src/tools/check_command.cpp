@@ -3,11 +3,11 @@
 
 #include "reports/rotor_systems.h"
 #include "reports/scene_check.h"
+#include "requests/shipped_scenes.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "requests/shipped_scenes.h"
 
 namespace whirl_twin {
 

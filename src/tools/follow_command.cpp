@@ -8,12 +8,12 @@
 #include "estimation/follow_settings.h"
 #include "reports/followed_log.h"
 #include "requests/durations.h"
+#include "requests/shipped_scenes.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
 #include "tools/report_options.h"
-#include "requests/shipped_scenes.h"
 #include "transport/channels.h"
 #include "twin/scene_lines.h"
 

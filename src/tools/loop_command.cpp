@@ -40,8 +40,7 @@ struct LoopOptions {
 
 int loopsOf(const LoopOptions& options) {
   requirePictureName(options.plot);
-  const Document document =
-      loopDocument(readSceneFile(scenePath(options.scene)), options.speed);
+  const Document document = loopDocument(readSceneFile(scenePath(options.scene)), options.speed);
   return printDocument(document, options.json, std::nullopt, options.plot);
 }
 

@@ -42,9 +42,9 @@ void addMapCommand(const ProgramCommand& twin, int& status) {
   command.option("--bearing", request->map.nodes, "nodes whose bearings are varied").type("NODE");
   command.footer(kMapFooter);
   command.callback([request, &status] {
-    status = printDocument(
-        mapDocument(sceneOf(request->options), request->options.system, request->map),
-        request->options);
+    status =
+        printDocument(mapDocument(sceneOf(request->options), request->options.system, request->map),
+                      request->options);
   });
 }
 

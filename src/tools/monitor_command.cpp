@@ -5,13 +5,13 @@
 #include "reports/asked_cost.h"
 #include "reports/drawings.h"
 #include "reports/monitored_log.h"
+#include "requests/shipped_scenes.h"
 #include "scene/scene_reader.h"
 #include "tools/alarm_settings_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
 #include "tools/report_options.h"
-#include "requests/shipped_scenes.h"
 #include "transport/channels.h"
 
 namespace whirl_twin {

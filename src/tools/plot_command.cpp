@@ -10,13 +10,13 @@
 #include "reports/output.h"
 #include "reports/study_report.h"
 #include "reports/system_plots.h"
+#include "requests/simulation.h"
 #include "scene/yaml_file.h"
 #include "studies/study_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
 #include "tools/progress_bar.h"
-#include "requests/simulation.h"
 
 namespace whirl_twin {
 

@@ -11,10 +11,10 @@
 #include "messages/input_error.h"
 #include "reports/drawings.h"
 #include "reports/rotor_report.h"
+#include "requests/shipped_scenes.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "requests/shipped_scenes.h"
 
 namespace whirl_twin {
 

@@ -1,9 +1,9 @@
 #include "tools/report_options.h"
 
+#include "requests/shipped_scenes.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "requests/shipped_scenes.h"
 
 namespace whirl_twin {
 

@@ -57,10 +57,9 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
   command.option("--points", request->range.points, "minimum number of speeds; default: 200")
       .type("N");
   command.option("--station", request->station, "only this station of the shaft").type("NAME");
-  const Option force = command
-                           .option("--force", forced->force,
-                                   "station of a harmonic force in a fixed direction")
-                           .type("NAME");
+  const Option force =
+      command.option("--force", forced->force, "station of a harmonic force in a fixed direction")
+          .type("NAME");
   command.option("--along", forced->along, "direction of the force, x or y; default: x")
       .needs(force)
       .type("AXIS");
@@ -68,8 +67,7 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
       .needs(force)
       .type("NAME");
   command
-      .option("--speed", forced->speed,
-              "speed of the shaft [rad/s]; default: the drive's highest")
+      .option("--speed", forced->speed, "speed of the shaft [rad/s]; default: the drive's highest")
       .needs(force)
       .type("W");
   addInsistOption(command, request->insist);
@@ -92,9 +90,9 @@ void addOrbitCommand(const ProgramCommand& twin, int& status) {
   command.option("--speed", given->speed, "speed of the shaft [rad/s]").required().type("W");
   command.footer(kOrbitFooter);
   command.callback([given, &status] {
-    status = printDocument(
-        orbitDocument(sceneOf(given->options), given->options.system, given->speed),
-        given->options);
+    status =
+        printDocument(orbitDocument(sceneOf(given->options), given->options.system, given->speed),
+                      given->options);
   });
 }
 

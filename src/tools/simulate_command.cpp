@@ -7,12 +7,12 @@
 #include "messages/input_error.h"
 #include "reports/output.h"
 #include "reports/sample_writer.h"
+#include "requests/simulation.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
 #include "tools/progress_bar.h"
-#include "requests/simulation.h"
 #include "twin/scene_lines.h"
 
 namespace whirl_twin {

@@ -67,9 +67,9 @@ void addStabilityCommand(const ProgramCommand& twin, int& status) {
   command.footer(kStabilityFooter);
   command.callback([request, &status] {
     takeStages(*request);
-    status = printDocument(stabilityDocument(sceneOf(request->options), request->options.system,
-                                             request->level_one),
-                           request->options);
+    status = printDocument(
+        stabilityDocument(sceneOf(request->options), request->options.system, request->level_one),
+        request->options);
   });
 }
 

@@ -12,12 +12,12 @@
 #include "reports/rotor_systems.h"
 #include "reports/tradeoff_report.h"
 #include "requests/durations.h"
+#include "requests/shipped_scenes.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
 #include "tools/report_options.h"
-#include "requests/shipped_scenes.h"
 
 namespace whirl_twin {
 
