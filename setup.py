@@ -39,4 +39,5 @@ setup(
     package_data={"whirl_twin": ["py.typed", "*.pyi"], "whirl_twin.drawing": ["templates/*"]},
     ext_modules=[Extension("whirl_twin._native", [])],
     cmdclass={"build_ext": BuildByCMake},
+    options={"build": {"build_base": "build/pip"}},
 )
