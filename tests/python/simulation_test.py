@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -111,6 +112,8 @@ class Runs(unittest.TestCase):
         def fail(part):
             raise LookupError(str(part))
 
+        with self.assertRaisesRegex(wt.InputError, "sample"):  # more memory than there is
+            wt.simulate("demo", "1e8")
         with self.assertRaises(LookupError):
             wt.simulate("demo", "1e6", 100, progress=fail)
 
@@ -184,6 +187,21 @@ class SteppedTwins(unittest.TestCase):
             twin.restore(b"nonsense")
         with self.assertRaises(wt.InputError):
             wt.Twin("pendulum").restore(saved)
+
+    def test_a_twin_that_another_thread_steps_is_not_read(self):
+        twin = wt.Twin("demo")
+        thread = threading.Thread(target=twin.step, args=(3_000_000,))
+        thread.start()
+        refused = 0
+        while thread.is_alive():
+            try:
+                twin.state("rotor")
+            except wt.RunError:
+                refused += 1
+        thread.join()
+        self.assertGreater(refused, 0)
+        self.assertEqual(twin.steps, 3_000_000)
+        self.assertTrue(numpy.isfinite(twin.state("rotor")["q"]).all())
 
     def test_a_constant_force_moves_a_spring_by_force_over_stiffness(self):
         scene = wt.Scene.load({
