@@ -1,6 +1,7 @@
 """The Python package alone, without ROS and LCM: `pip install . --no-build-isolation` where scripts/setup --python has
 installed what it is built with."""
 
+import os
 import pathlib
 import re
 import shutil
@@ -23,7 +24,7 @@ class BuildByCMake(build_ext):
                      "-DWHIRL_TWIN_LCM=OFF", "-DWHIRL_TWIN_TESTS=OFF", "-DWHIRL_TWIN_MPI=OFF",
                      f"-DPython3_EXECUTABLE={sys.executable}", "--log-level=WARNING"]
         subprocess.run(configure + (["-G", "Ninja"] if shutil.which("ninja") else []), check=True)
-        parallel = ["--parallel", str(self.parallel)] if self.parallel else ["--parallel"]
+        parallel = [] if "CMAKE_BUILD_PARALLEL_LEVEL" in os.environ else ["--parallel"]
         subprocess.run(["cmake", "--build", build, "--target", "whirl_twin_native", *parallel], check=True)
         module = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve()
         module.parent.mkdir(parents=True, exist_ok=True)
@@ -39,4 +40,5 @@ setup(
     package_data={"whirl_twin": ["py.typed", "*.pyi"], "whirl_twin.drawing": ["templates/*"]},
     ext_modules=[Extension("whirl_twin._native", [])],
     cmdclass={"build_ext": BuildByCMake},
+    options={"build": {"build_base": "build/pip"}},
 )

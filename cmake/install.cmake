@@ -77,6 +77,17 @@ foreach(module ${whirl_twin_library_modules})
   install(DIRECTORY src/${module} DESTINATION include/whirl_twin FILES_MATCHING PATTERN *.h)
 endforeach()
 
+# The Python package. (What ROS installs of the devel space includes it; the module gets its run path here.)
+if(TARGET whirl_twin_native)
+  add_dependencies(whirl_twin_programs whirl_twin_python)
+  file(RELATIVE_PATH to_library /${whirl_twin_python_dir} /${whirl_twin_library_dir})
+  set_target_properties(whirl_twin_native PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
+  install(TARGETS whirl_twin_native LIBRARY DESTINATION ${whirl_twin_python_dir})
+endif()
+if(WHIRL_TWIN_LCM OR WHIRL_TWIN_PYTHON)
+  install(DIRECTORY python/whirl_twin/ DESTINATION ${whirl_twin_python_dir} PATTERN __pycache__ EXCLUDE)
+endif()
+
 # The site, where scripts/docs has built it.
 install(DIRECTORY ${PROJECT_BINARY_DIR}/docs/html DESTINATION share/doc/whirl_twin COMPONENT documentation OPTIONAL)
 

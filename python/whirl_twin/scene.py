@@ -13,6 +13,8 @@ SceneLike = Union["Scene", str, "os.PathLike[str]", Mapping[str, Any]]
 
 _SYSTEM_KEYS = ("model", "drive", "integrator", "tolerance", "horizon", "substeps", "parameters", "initial", "inputs",
                 "count", "seed", "spread")
+_CONTROLLER_KEYS = ("type", "rate", "measures", "acts_on", "delay", "sensor", "actuator", "parameters", "mode",
+                    "timeout", "on_timeout")
 _STEP = re.compile(r"\.?([A-Za-z_]\w*)|\[(\d+)\]")
 
 
@@ -100,14 +102,11 @@ class Scene:
                 if not isinstance(path, str):
                     raise TypeError(f"{name}: paths must be text, found {type(path).__name__}")
                 first = re.split(r"[.\[]", path, 1)[0]
-                known = _SYSTEM_KEYS if where == "systems" else (*part, "type", "sample", "delay")
-                if where == "systems" and first not in known:
-                    part.setdefault("parameters", {})
-                    _put(part["parameters"], path, value, f"{self.source}: {where}.{name}.parameters")
-                elif where == "controllers" and first not in known and isinstance(part.get("parameters"), dict):
-                    _put(part["parameters"], path, value, f"{self.source}: {where}.{name}.parameters")
-                else:
+                keys = {"systems": _SYSTEM_KEYS, "controllers": _CONTROLLER_KEYS}.get(where)
+                if keys is None or first in keys:
                     _put(part, path, value, f"{self.source}: {where}.{name}")
+                else:
+                    _put(part.setdefault("parameters", {}), path, value, f"{self.source}: {where}.{name}.parameters")
         return Scene(_native.scene_of_tree(tree, self.source))
 
     @staticmethod

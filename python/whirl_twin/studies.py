@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import tempfile
-from typing import Callable
+from typing import Callable, Union
 
 from . import _native
 from .quantities import text, whole
 from .results import Result
 
-Path = "str | os.PathLike[str]"
+Path = Union[str, "os.PathLike[str]"]
 
 
 def _path(name: str, value: Path) -> str:

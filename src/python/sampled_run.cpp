@@ -56,8 +56,11 @@ SampledRun::SampledRun(const Twin& twin, std::vector<std::size_t> systems, std::
       static_cast<double>(signals_.size()) * static_cast<double>(samples_) * sizeof(double);
   tell({0.0, size, fmt::format("sample: {} signals, {} samples", signals_.size(), samples_)},
        insist);
-  values_.reset(static_cast<double*>(
-      std::malloc(std::max<std::size_t>(1, signals_.size() * samples_) * sizeof(double))));
+  constexpr double kMaxSize = 1.0e18;  // bytes, which std::size_t holds
+  values_.reset(size > kMaxSize
+                    ? nullptr
+                    : static_cast<double*>(std::malloc(
+                          std::max<std::size_t>(1, signals_.size() * samples_) * sizeof(double))));
   if (!values_) {
     throw std::bad_alloc();
   }

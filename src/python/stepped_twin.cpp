@@ -73,13 +73,21 @@ void SteppedTwin::step(std::int64_t count, const std::function<void()>& look) {
   }
 }
 
+void SteppedTwin::requireIdle() const {
+  if (stepping) {
+    throw RunFailure("the twin is stepped by another thread");
+  }
+}
+
 void SteppedTwin::reset() {
+  requireIdle();
   twin_.reset();
   systems_ = twin_.systems();
   observe();
 }
 
 std::size_t SteppedTwin::systemNamed(const std::string& name) const {
+  requireIdle();
   std::vector<std::string> names;
   for (const SystemSpec& system : scene_.systems) {
     names.push_back(system.name);
@@ -135,6 +143,7 @@ std::optional<double> SteppedTwin::parameter(const std::string& system,
 }
 
 std::string SteppedTwin::save() {
+  requireIdle();
   const std::string twin = imageOf(twin_);
   const SavedHead head{twin_.stepCount(), static_cast<std::uint64_t>(twin.size())};
   std::string bytes(sizeof head, '\0');

@@ -24,8 +24,12 @@ class SteppedTwin {
   /// one.
   void step(std::int64_t count, const std::function<void()>& look);
   void reset();
+  /// Throws RunFailure while another thread steps it: steps run without the interpreter's lock, all
+  /// else with it.
+  void requireIdle() const;
+  bool stepping = false;
 
-  /// Of its name. Throws InputError with a hint.
+  /// Of its name. Throws InputError with a hint, and as requireIdle().
   std::size_t systemNamed(const std::string& name) const;
   /// An input from the next step on, for so many seconds of simulated time; none: until the next
   /// value. Throws InputError for an input that is not there or not a number in the scene.

@@ -114,8 +114,16 @@ void stepBy(SteppedTwin& stepped, std::int64_t count) {
   if (count < 0) {
     throw InputError(fmt::format("step: must be 0 steps or more, found {}", count));
   }
-  const py::gil_scoped_release release;
-  stepped.step(count, requireNoSignal);
+  stepped.requireIdle();
+  stepped.stepping = true;
+  try {
+    const py::gil_scoped_release release;
+    stepped.step(count, requireNoSignal);
+  } catch (...) {
+    stepped.stepping = false;
+    throw;
+  }
+  stepped.stepping = false;
 }
 
 }  // namespace
