@@ -32,7 +32,7 @@ const client = new Client(`ws://${location.host}/${location.search}`, {
     client.subscribe("loop", showLoop);
     client.subscribe("alerts", message => showAlerts(message.alerts));
     client.subscribe("server", counts => $("counts").textContent =
-      `${counts.clients} clients, ${counts.sent} messages sent, ${counts.dropped} lost by slow clients`);
+      `clients: ${counts.clients}, messages sent: ${counts.sent}, lost by slow clients: ${counts.dropped}`);
     client.watchParameters();
   },
   close() { showState("lost", "disconnected"); },
@@ -62,6 +62,11 @@ function showLoop(loop) {
 
 // ---- Alarms
 
+function sentenceOf(alert) {
+  const about = alert.text.startsWith(alert.system) ? "" : `${alert.system}: `;
+  return about + alert.text + (alert.latched ? " (latched)" : "");
+}
+
 function showAlerts(alerts) {
   const list = $("alarm-list");
   list.replaceChildren();
@@ -69,7 +74,7 @@ function showAlerts(alerts) {
     const severity = ["INFO", "WARNING", "DANGER"][alert.severity];
     const row = make("li", {className: alert.acknowledged ? "acknowledged" : ""},
                      make("span", {className: `severity ${severity}`, textContent: severity}),
-                     make("span", {textContent: `${alert.system}: ${alert.text}` + (alert.latched ? " (latched)" : "")}));
+                     make("span", {textContent: sentenceOf(alert)}));
     if (!readOnly && !alert.acknowledged) {
       const button = make("button", {type: "button", textContent: "Acknowledge"});
       button.addEventListener("click", () => call("acknowledge", {system: alert.system, type: alert.type}));
@@ -161,7 +166,7 @@ function systemCard(system, scene) {
     const shown = system.rotor ? [values[0].map((x, i) => x === null ? null : Math.hypot(x, values[1][i]))] : values;
     traces.take(time, system.drive ? [...shown, speed] : shown);
     orbit?.take(picture.samples);
-    sketch.take(picture, system.rotor);
+    sketch.take(picture);
     $("time").textContent = `${picture.time.toFixed(2)} s`;
     schedule();
   });

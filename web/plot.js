@@ -178,7 +178,7 @@ export class Orbit {
       context.fill();
     }
     context.fillStyle = color("faint");
-    context.fillText(`orbit, circle ${short(circle)} ${unit.unit}`, 8, height - 8);
+    context.fillText(`orbit, circle ${short(circle)} ${unit.unit}`, 8, 16);
     this.canvas.setAttribute("aria-label", `${this.name}, orbit, largest radius ${quantity(largest, "m")}`);
   }
 }

@@ -4,7 +4,7 @@
 import {cleared, color, short} from "./canvas.js";
 
 const CORNERS = 40;  // of a disc
-const TRAIL = 600;   // points
+const TRAIL = 1.5;   // s, simulated
 
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const add = (a, b, k = 1) => [a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]];
@@ -42,7 +42,7 @@ export class SketchView {
     this.draw();
   }
 
-  take(picture, rotor) {
+  take(picture) {
     if (this.picture && picture.time < this.picture.time) {
       this.trail = [];
     }
@@ -50,14 +50,9 @@ export class SketchView {
       this.trail = [];
     }
     this.picture = picture;
-    if (picture.tracer && rotor) {
-      const [x, y] = picture.samples.values;
-      x.forEach((value, i) => this.trail.push(
-        [picture.tracer[0], picture.magnification * value, picture.magnification * y[i]]));
-    } else if (picture.tracer) {
-      this.trail.push(picture.tracer);
-    }
-    this.trail.splice(0, this.trail.length - (rotor ? TRAIL : TRAIL / 4));
+    picture.samples.path.forEach((point, i) => this.trail.push([picture.samples.time[i], point]));
+    const old = this.trail.findIndex(one => one[0] >= picture.time - TRAIL);
+    this.trail.splice(0, old < 0 ? this.trail.length : old);
   }
 
   draw() {
@@ -72,7 +67,8 @@ export class SketchView {
     const sketch = picture.sketch;
     const azimuth = sketch.spatial ? this.azimuth : 0, elevation = sketch.spatial ? this.elevation : 0;
     const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
-    const scale = 0.94 * Math.min(width / sketch.size, height / (sketch.height || sketch.size));
+    const tall = sketch.height || sketch.size;
+    const scale = 0.94 * Math.min(width / sketch.size, height / (tall * ce + 0.5 * sketch.size * Math.abs(se)));
     this.scale = scale;
     this.project = point => {
       const [x, y, z] = sub(point, sketch.centre);
@@ -92,11 +88,11 @@ export class SketchView {
     sketch.discs.forEach(one => part([one.at], () => this.disc(context, one)));
     sketch.balls.forEach(one => part([one.at], () => this.ball(context, one)));
     parts.sort((a, b) => b.depth - a.depth).forEach(one => one.paint());
-    this.path(context, this.trail, color("line-4"), 1.5);
+    this.path(context, this.trail.map(one => one[1]), color("line-4"), 1.5);
     sketch.arrows.forEach(one => this.arrow(context, one));
     if (picture.magnification !== 1) {
       context.fillStyle = color("faint");
-      context.fillText(`deflection × ${short(picture.magnification)}`, 8, height - 8);
+      context.fillText(`deflection × ${short(picture.magnification)}`, 8, 16);
     }
     this.canvas.setAttribute("aria-label", `${this.name}, drawing at ${short(picture.time)} s`);
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <utility>
 
@@ -15,7 +16,13 @@ namespace {
 constexpr std::chrono::milliseconds kWaitBetween{500};
 constexpr double kLong = 10.0;  // s, of processor time: unaffected by other load
 
+std::atomic<bool> until_stopped{false};
+
 }  // namespace
+
+void runsUntilStopped() {
+  until_stopped.store(true);
+}
 
 Patience::Patience(std::string command)
     : command_(std::move(command)), thread_([this] { watch(); }) {}
@@ -32,7 +39,7 @@ Patience::~Patience() {
 void Patience::watch() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!ended_.wait_for(lock, kWaitBetween, [this] { return end_; })) {
-    if (isAnnounced()) {
+    if (isAnnounced() || until_stopped.load()) {
       return;
     }
     if (processorTime() > kLong) {

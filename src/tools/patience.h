@@ -9,6 +9,9 @@
 
 namespace whirl_twin {
 
+/// No note from now on: the command runs until it is stopped, as its user knows.
+void runsUntilStopped();
+
 class Patience {
  public:
   /// `command`: the name in the note, "twin analyze".

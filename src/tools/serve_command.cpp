@@ -18,6 +18,7 @@
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
+#include "tools/patience.h"
 #include "web/served_twin.h"
 #include "web/web_files.h"
 
@@ -90,6 +91,7 @@ int serve(const ServeRequest& request) {
   settings.alarms = alarmSettingsOf(build(scene), request.settings);
   catchInterrupts();
   ServedTwin twin(scene, settings, [] { return !interrupted(); });
+  runsUntilStopped();
   printText(twin.url() + "\n");
   finishStandardOutput();
   const bool interrupted_by_user = twin.run();

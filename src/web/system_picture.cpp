@@ -32,7 +32,8 @@ Sketch discRotorSketch(double x, double y, double angle) {
   };
   Sketch sketch;
   sketch.size = 1.2;
-  sketch.height = 0.85;
+  sketch.height = 0.75;
+  sketch.centre = {0.0, 0.0, -0.08};
   sketch.spatial = true;
   for (int i = 0; i < kRods; ++i) {
     sketch.rods.push_back({at(kSpan * (static_cast<double>(i) / kRods - 0.5)),
@@ -64,23 +65,28 @@ SystemPicture::SystemPicture(std::size_t system, const BuiltSystem& built)
   values_.resize(names_.size());
 }
 
-void SystemPicture::restart() {
+void SystemPicture::clearSamples() {
   times_.clear();
   speeds_.clear();
+  path_.clear();
   for (std::vector<double>& values : values_) {
     values.clear();
   }
-  stride_ = 1;
   passed_ = 0;
+}
+
+void SystemPicture::restart() {
+  clearSamples();
+  stride_ = 1;
   longest_ = 0.0;
 }
 
-void SystemPicture::sample(const Observer& observer) {
+void SystemPicture::sample(const Observer& observer, const Dynamics& dynamics) {
   if (passed_++ % stride_ != 0) {
     return;
   }
   if (times_.size() == kMaxSamples) {  // every other of them, from now on, too
-    const auto thin = [](std::vector<double>& all) {
+    const auto thin = [](auto& all) {
       for (std::size_t i = 0; 2 * i < all.size(); ++i) {
         all[i] = all[2 * i];
       }
@@ -88,7 +94,10 @@ void SystemPicture::sample(const Observer& observer) {
     };
     thin(times_);
     thin(speeds_);
-    std::for_each(values_.begin(), values_.end(), thin);
+    thin(path_);
+    for (std::vector<double>& values : values_) {
+      thin(values);
+    }
     stride_ *= 2;
   }
   times_.push_back(observer.instant().time);
@@ -103,6 +112,7 @@ void SystemPicture::sample(const Observer& observer) {
   for (std::size_t i = 0; i < values_.size(); ++i) {
     values_[i].push_back(observer.coordinates(system_)[i]);
   }
+  path_.push_back(sketch(observer, dynamics).tracer);
 }
 
 /// The magnification stays while the motion is well visible, so that the picture is calm.
@@ -146,28 +156,37 @@ Sketch SystemPicture::sketch(const Observer& observer, const Dynamics& dynamics)
                                   observer.moment(system_));
 }
 
+/// Of a rotor from its samples, magnified as its sketch is now; x: where it is along the shaft [m].
+Json SystemPicture::path(double x) const {
+  Json points = Json::array();
+  for (std::size_t i = 0; i < times_.size(); ++i) {
+    const SketchPoint at =
+        rotor_ ? SketchPoint{x, magnification_ * values_[0][i], magnification_ * values_[1][i]}
+               : path_[i];
+    points.push_back({at.x, at.y, at.z});
+  }
+  return points;
+}
+
 Json SystemPicture::take(const Observer& observer, const Dynamics& dynamics) {
   const state::Instant now = observer.instant();
   const bool runs = observer.status(system_) == StepStatus::kOk;
   const Sketch drawn = runs ? sketch(observer, dynamics) : Sketch{};
-  Json json = {
-      {"step", now.step},
-      {"time", now.time},
-      {"stopped", observer.stopReason(system_)},
-      {"speed", observer.moment(system_).speed},
-      {"angle", observer.moment(system_).angle},
-      {"magnification", rotor_ ? magnification_ : 1.0},
-      {"names", names_},
-      {"sketch", drawn.empty() ? Json() : sketchJson(drawn)},
-      {"tracer", drawn.has_tracer ? Json{drawn.tracer.x, drawn.tracer.y, drawn.tracer.z} : Json()},
-      {"samples", {{"time", times_}, {"speed", speeds_}, {"values", values_}}}};
-  times_.clear();
-  speeds_.clear();
-  for (std::vector<double>& values : values_) {
-    values.clear();
-  }
+  Json json = {{"step", now.step},
+               {"time", now.time},
+               {"stopped", observer.stopReason(system_)},
+               {"speed", observer.moment(system_).speed},
+               {"angle", observer.moment(system_).angle},
+               {"magnification", rotor_ ? magnification_ : 1.0},
+               {"names", names_},
+               {"sketch", drawn.empty() ? Json() : sketchJson(drawn)},
+               {"samples",
+                {{"time", times_},
+                 {"speed", speeds_},
+                 {"values", values_},
+                 {"path", drawn.has_tracer ? path(drawn.tracer.x) : Json::array()}}}};
+  clearSamples();
   stride_ = std::max<std::size_t>(1, stride_ / 2);
-  passed_ = 0;
   return json;
 }
 

@@ -21,7 +21,7 @@ class SystemPicture {
   SystemPicture(std::size_t system, const BuiltSystem& built);
 
   /// Keeps the observer's state as a sample, or leaves some out, evenly, where there are too many.
-  void sample(const Observer& observer);
+  void sample(const Observer& observer, const Dynamics& dynamics);
   /// With the samples since the last call. dynamics: with the present parameters.
   Json take(const Observer& observer, const Dynamics& dynamics);
   /// The twin was reset.
@@ -33,12 +33,15 @@ class SystemPicture {
   Sketch sketch(const Observer& observer, const Dynamics& dynamics);
   Sketch rotorSketch(const Observer& observer, const Dynamics& dynamics);
   void magnify(double radius, double size);
+  Json path(double x) const;
+  void clearSamples();
 
   std::size_t system_;
   bool rotor_;
   std::vector<std::string> names_;           // of the samples' values
   std::vector<double> times_, speeds_;       // [s], [rad/s]
   std::vector<std::vector<double>> values_;  // of each name
+  std::vector<SketchPoint> path_;            // of the tracer; of a rotor it follows from values_
   std::size_t stride_ = 1, passed_ = 0;
   double longest_ = 0.0;  // [m], radius of late
   double magnification_ = 1.0;

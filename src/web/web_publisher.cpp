@@ -249,7 +249,7 @@ void WebPublisher::take(const double* record) {
     stopped_now_ = stopped_now_ || (stopped && !stopped_[i]);
     stopped_[i] = stopped;
     if (due && moved && !stopped && wanted(pictureTopic(live_.twin().systems()[i]->spec.name))) {
-      pictures_[i].sample(observer_);
+      pictures_[i].sample(observer_, *dynamicsOf(i));
     }
   }
 }
@@ -260,12 +260,16 @@ std::int64_t WebPublisher::stampOf(std::int64_t step) const {
   return std::max<std::int64_t>(0, scene.time) + (earlier_steps_ + step) * scene.step;
 }
 
+/// With the parameters of the newest record.
+std::shared_ptr<const Dynamics> WebPublisher::dynamicsOf(std::size_t system) const {
+  return live_.generations()->at(system, observer_.generation(system))->dynamics;
+}
+
 void WebPublisher::sendPictures() {
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
     const std::string topic = pictureTopic(live_.twin().systems()[i]->spec.name);
     if (wanted(topic)) {
-      const auto generation = live_.generations()->at(i, observer_.generation(i));
-      send(topic, pictures_[i].take(observer_, *generation->dynamics));
+      send(topic, pictures_[i].take(observer_, *dynamicsOf(i)));
     }
   }
   const std::int64_t stamp = observer_.instant().stamp;

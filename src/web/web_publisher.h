@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -61,6 +62,7 @@ class WebPublisher {
   void send(const State& state);
   void send(const std::string& topic, const Json& json);
   void flush();
+  std::shared_ptr<const Dynamics> dynamicsOf(std::size_t system) const;
   std::int64_t stampOf(std::int64_t step) const;
 
   LiveTwin& live_;

@@ -200,7 +200,7 @@ class Paused(unittest.TestCase):
             for service, request, why in (
                     ('set_speed', {'drive': 'shaf', 'speed': 5.0, 'max_acceleration': 1.0, 'max_jerk': 0.0},
                      "drive: must be a drive of the scene, found 'shaf'; did you mean 'shaft'?"),
-                    ('set_speed', {'drive': 'shaft', 'speed': 1e9, 'max_acceleration': 1.0, 'max_jerk': 0.0}, 'found 1e'),
+                    ('set_speed', {'drive': 'shaft', 'speed': 1e9, 'max_acceleration': 1.0, 'max_jerk': 0.0}, 'speed must be within'),
                     ('set_input', {'system': 'rotor', 'input': 'torque', 'value': 1.0, 'duration': 1.0}, 'input: must be'),
                     ('set_real_time_factor', {'factor': -1}, 'real_time_factor: must be'),
                     ('acknowledge', {'system': 'roto', 'type': ''}, 'system: must be a system of the scene'),
@@ -301,15 +301,15 @@ class Running(unittest.TestCase):
     def test_ends_by_ctrl_c(self):
         for how in (signal.SIGINT, signal.SIGTERM):
             server = Server()
-            client = server.client()
-            client.subscribe('rotor/whirl')
-            client.of('rotor/whirl')
-            status, errors = server.stop(how)
-            self.assertEqual(status, 0, errors)
-            self.assertRegex(errors, r'^twin serve: stopped after \d+ steps\n$')
-            with self.assertRaises(ConnectionError):
-                while True:
-                    client.message()
+            with server.client() as client:
+                client.subscribe('rotor/whirl')
+                client.of('rotor/whirl')
+                status, errors = server.stop(how)
+                self.assertEqual(status, 0, errors)
+                self.assertRegex(errors, r'^twin serve: stopped after \d+ steps\n$')
+                with self.assertRaises(ConnectionError):
+                    while True:
+                        client.message()
 
     def test_port_in_use(self):
         with Server('--paused') as server:
@@ -323,7 +323,7 @@ class Running(unittest.TestCase):
         for arguments, why in ((['--port', '70000'], '--port: must be from 0'), (['--rate', '-1'], '--rate: must be'),
                                (['--address', 'nowhere'], '--address: must be an IP address'),
                                (['--real-time-factor', '-1'], 'real_time_factor: must be')):
-            run = subprocess.run([TWIN, 'serve', 'demo', '--port', '0', *arguments], capture_output=True, text=True,
+            run = subprocess.run([TWIN, 'serve', 'demo', *arguments], capture_output=True, text=True,
                                  timeout=PATIENCE)
             self.assertEqual(run.returncode, 2, run)
             self.assertIn(why, run.stderr)
