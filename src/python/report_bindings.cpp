@@ -77,8 +77,8 @@ void bindReports(py::module_& module) {
       "analyze",
       [](const SharedScene& scene, Name system, Number speed, Name at, bool all_parameters,
          const std::string& modes, bool insist) {
-        AnalyzeRequest request{std::move(system), speed, std::move(at), all_parameters, modes,
-                               insist};
+        AnalyzeRequest request{std::move(system), speed, std::move(at),
+                               all_parameters,    modes, insist};
         Document document;
         runListening(py::none(), [&](WorkProgress& work) {
           document = analyzeDocument(scene->scene, request, work);
@@ -127,9 +127,8 @@ void bindReports(py::module_& module) {
       "orbit",
       [](const SharedScene& scene, const Name& system, double speed) {
         Document document;
-        runListening(py::none(), [&](WorkProgress&) {
-          document = orbitDocument(scene->scene, system, speed);
-        });
+        runListening(py::none(),
+                     [&](WorkProgress&) { document = orbitDocument(scene->scene, system, speed); });
         return document;
       },
       py::arg("scene"), py::arg("system"), py::arg("speed"));
@@ -166,9 +165,8 @@ void bindReports(py::module_& module) {
          int modes, std::vector<int> nodes) {
         const CriticalMapRequest request{from, to, points, modes, std::move(nodes)};
         Document document;
-        runListening(py::none(), [&](WorkProgress&) {
-          document = mapDocument(scene->scene, system, request);
-        });
+        runListening(py::none(),
+                     [&](WorkProgress&) { document = mapDocument(scene->scene, system, request); });
         return document;
       },
       py::arg("scene"), py::arg("system"), py::arg("start"), py::arg("stop"), py::arg("points"),
@@ -178,8 +176,8 @@ void bindReports(py::module_& module) {
       [](const SharedScene& scene, Name system, std::string measured,
          std::vector<std::string> planes, Number from, Number to, bool run_out_known,
          std::string lcm_prefix) {
-        MeasuredBalanceRequest request{std::move(system), std::move(measured), {},
-                                       std::move(lcm_prefix)};
+        MeasuredBalanceRequest request{
+            std::move(system), std::move(measured), {}, std::move(lcm_prefix)};
         request.unbalance.planes = std::move(planes);
         request.unbalance.run_out_known = run_out_known;
         request.unbalance.from = from.value_or(request.unbalance.from);
@@ -189,8 +187,8 @@ void bindReports(py::module_& module) {
                      [&](WorkProgress&) { document = balanceDocument(scene->scene, request); });
         return document;
       },
-      py::arg("scene"), py::arg("system"), py::arg("measured"), py::arg("planes"),
-      py::arg("start"), py::arg("stop"), py::arg("run_out_known"), py::arg("lcm_prefix"));
+      py::arg("scene"), py::arg("system"), py::arg("measured"), py::arg("planes"), py::arg("start"),
+      py::arg("stop"), py::arg("run_out_known"), py::arg("lcm_prefix"));
   module.def(
       "loop",
       [](const SharedScene& scene, Number speed) {

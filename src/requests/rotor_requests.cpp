@@ -44,7 +44,8 @@ Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const Make&
     document.json["systems"][rotor.name] = json(*report);
     append(document.tables, rotor.name, tables(*report));
     document.text += (document.text.empty() ? "" : "\n") + text(*report);
-    document.drawings.push_back({rotor.name, [of, report, draw] { return figureJson(draw(*report)); }});
+    document.drawings.push_back(
+        {rotor.name, [of, report, draw] { return figureJson(draw(*report)); }});
   }
   return document;
 }

@@ -185,8 +185,9 @@ void addBalanceCommand(const ProgramCommand& twin, int& status) {
           .option("--planes", request->log.unbalance.planes,
                   "stations where masses can be added; default: those of the scene's unbalances")
           .type("STATION"));
-  with_log(command.option("--from", request->log.unbalance.from, "rad/s; slower intervals are left out")
-               .type("W"));
+  with_log(
+      command.option("--from", request->log.unbalance.from, "rad/s; slower intervals are left out")
+          .type("W"));
   with_log(command.option("--to", request->log.unbalance.to, "rad/s; faster intervals are left out")
                .type("W"));
   with_log(command.flag("--known-run-out", request->log.unbalance.run_out_known,
