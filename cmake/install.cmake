@@ -99,7 +99,7 @@ if(WHIRL_TWIN_ROS)
   install(DIRECTORY launch config web DESTINATION ${whirl_twin_share_dir})
   install(DIRECTORY msg DESTINATION ${whirl_twin_share_dir} FILES_MATCHING PATTERN *.lcm)
   install(DIRECTORY examples DESTINATION ${whirl_twin_share_dir} USE_SOURCE_PERMISSIONS
-    FILES_MATCHING PATTERN *.py PATTERN *.cpp PATTERN *.yaml PATTERN __pycache__ EXCLUDE)
+    FILES_MATCHING PATTERN *.py PATTERN *.cpp PATTERN *.yaml PATTERN *.ipynb PATTERN __pycache__ EXCLUDE)
   if(WHIRL_TWIN_LCM)
     install(DIRECTORY ${whirl_twin_lcm_python} DESTINATION ${CATKIN_GLOBAL_PYTHON_DESTINATION}
       FILES_MATCHING PATTERN *.py)

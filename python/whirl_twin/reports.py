@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, Callable, Sequence
 
 from . import _native
@@ -115,6 +116,25 @@ def critical_map(scene: SceneLike, system: str | None = None, *, from_: Quantity
 
 #: The map that there is: critical speeds over the stiffness of the bearings.
 stability_map = critical_map
+
+
+def balance(scene: SceneLike, system: str | None = None, *, measured: "str | os.PathLike[str]",
+            planes: str | Sequence[str] = (), from_: Quantity | None = None, to: Quantity | None = None,
+            known_run_out: bool = False, lcm_prefix: str = "TWIN_") -> Result:
+    """Unbalance of a running rotor from a log of its probes and keyphasor, and the masses that cancel it.
+
+    measured: path of the log, as ``twin simulate --measure`` writes it. planes: stations where masses can be added;
+    default: those of the scene's unbalances. from_, to: range of speeds [rad/s] that is used. known_run_out: the
+    run-out of the scene's sensors is used, else it is estimated.
+
+    ``correction[PLANE]`` and ``unbalance[PLANE]`` have ``mass_radius`` [kg m] and ``angle`` [deg] from the shaft's
+    phase mark, each with its ``_deviation``; None where the log does not identify them. Raises InputError for a log
+    without samples in the range, and as :func:`whirl_twin.read_log` does.
+    """
+    return Result(_native.balance(Scene.load(scene)._native, text("system", system), os.fspath(measured),
+                                  [text("planes", one) for one in listed(planes)],
+                                  quantity("from_", from_, "rad/s"), quantity("to", to, "rad/s"), bool(known_run_out),
+                                  text("lcm_prefix", lcm_prefix)), "balance")
 
 
 def loop(scene: SceneLike, *, speed: Quantity | None = None) -> Result:

@@ -1,5 +1,5 @@
 // The reports on a scene: analysis, Campbell diagram, response, orbits, modes, stability, loops,
-// critical speed map; and on a polynomial.
+// critical speed map, balancing; and on a polynomial.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -171,6 +171,24 @@ void bindReports(py::module_& module) {
       },
       py::arg("scene"), py::arg("system"), py::arg("start"), py::arg("stop"), py::arg("points"),
       py::arg("modes"), py::arg("bearings"));
+  module.def(
+      "balance",
+      [](const SharedScene& scene, Name system, std::string measured,
+         std::vector<std::string> planes, Number from, Number to, bool run_out_known,
+         std::string lcm_prefix) {
+        MeasuredBalanceRequest request{
+            std::move(system), std::move(measured), {}, std::move(lcm_prefix)};
+        request.unbalance.planes = std::move(planes);
+        request.unbalance.run_out_known = run_out_known;
+        request.unbalance.from = from.value_or(request.unbalance.from);
+        request.unbalance.to = to.value_or(request.unbalance.to);
+        Document document;
+        runListening(py::none(),
+                     [&](WorkProgress&) { document = balanceDocument(scene->scene, request); });
+        return document;
+      },
+      py::arg("scene"), py::arg("system"), py::arg("measured"), py::arg("planes"), py::arg("start"),
+      py::arg("stop"), py::arg("run_out_known"), py::arg("lcm_prefix"));
   module.def(
       "loop",
       [](const SharedScene& scene, Number speed) {

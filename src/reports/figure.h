@@ -28,9 +28,9 @@ inline constexpr Ink kPurple{0.8, 0.475, 0.655};
 inline constexpr Ink kOrange{0.902, 0.624, 0.0};
 inline constexpr Ink kSkyBlue{0.337, 0.706, 0.914};
 // Additional colours.
-inline constexpr Ink kBrown{0.55, 0.27, 0.07};
 inline constexpr Ink kOlive{0.55, 0.58, 0.10};
 inline constexpr Ink kNavy{0.16, 0.16, 0.48};
+inline constexpr Ink kPink{0.86, 0.15, 0.50};
 inline constexpr Ink kBlack{0.13, 0.13, 0.15};
 inline constexpr Ink kGrey{0.42, 0.44, 0.47};
 }  // namespace ink

@@ -19,6 +19,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kStrong = 0.9;      // a correlation worth a word
+constexpr double kGap = 10.0;        // steps without a row: nothing was measured there
 constexpr double kPersistent = 0.8;  // of residuals that are far from white
 constexpr std::size_t kMaxPairs = 6;
 constexpr std::size_t kMaxRemark = 200;
@@ -147,6 +148,31 @@ Series spectrum(const MeasuredRun& data, const Series& rest) {
     }
   }
   return series;
+}
+
+/// Interrupted where rows are missing: a line there would look measured.
+Series interrupted(Series series, double step) {
+  for (std::size_t k = series.x.size(); k-- > 1;) {
+    if (series.x[k] - series.x[k - 1] > kGap * step) {
+      series.x.insert(series.x.begin() + static_cast<std::ptrdiff_t>(k), series.x[k]);
+      series.y.insert(series.y.begin() + static_cast<std::ptrdiff_t>(k), kNaN);
+    }
+  }
+  return series;
+}
+
+/// [s], from row to row mostly.
+double medianStep(const std::vector<double>& time) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    steps.push_back(time[k] - time[k - 1]);
+  }
+  if (steps.empty()) {
+    return 0.0;
+  }
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
 }
 
 /// The node at `bearings[0].kxx` below a map; made where there is none.
@@ -311,6 +337,7 @@ Figure figure(const FitStudy& study, const ShootingFit& fit, std::size_t run) {
   const StudyRun& one = study.runs[run];
   const std::vector<double>& time = one.data.time;
   const Eigen::MatrixXd& states = fit.runs[run].states;
+  const double step = medianStep(time);
   Figure figure;
   figure.title =
       fmt::format("{}: {} ({})", study.system, one.file, one.train ? "train" : "validate");
@@ -340,11 +367,11 @@ Figure figure(const FitStudy& study, const ShootingFit& fit, std::size_t run) {
           c.offset.value);
       rest.y.push_back(column[k] - predicted.y.back());
     }
-    measured.pen = Pen{ink::kBlack, 2.2};
-    predicted.pen = Pen{ink::kVermilion, 1.2};
-    both.series = {measured, predicted};
+    measured.pen = Pen{ink::kSkyBlue, 4.0};  // wide and pale: both are seen where they agree
+    predicted.pen = Pen{ink::kBlack, 1.2};
+    both.series = {interrupted(measured, step), interrupted(predicted, step)};
     figure.charts.push_back(both);
-    left.series.push_back(rest);
+    left.series.push_back(interrupted(rest, step));
     lines.series.push_back(spectrum(one.data, rest));
   }
   left.y.label = fmt::format("residual ({})", one.measured.front().unit);

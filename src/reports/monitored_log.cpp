@@ -76,6 +76,10 @@ class Replay {
       SystemCourse course;
       course.name = system->spec.name;
       course.rotor = system->dynamics->isRotor();
+      if (const auto levels = settings.amplitude.find(course.name);
+          levels != settings.amplitude.end()) {
+        course.levels = levels->second;
+      }
       run_.systems.push_back(course);
       drives_.push_back(system->spec.drive.value_or(""));
     }

@@ -55,6 +55,7 @@ struct SystemCourse {
   std::vector<double> speed;  ///< [rad/s], of its shaft; NaN without one
   /// [m], the largest distance from the middle of the orbit since the value before; of rotors.
   std::vector<double> vibration;
+  AmplitudeLevels levels;           ///< of its vibration; empty: none
   std::vector<double> margin_time;  ///< [s]
   std::vector<double> decay_rate;   ///< [1/s], of the slowest motion
   std::uint64_t states = 0;

@@ -57,6 +57,38 @@ bool any(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
 }
 
+/// Where each type of alert was first raised: the bands have the colour of the severity alone.
+std::vector<ReferenceLine> namesOfAlerts(const MonitoredLog& run, const SystemCourse& system) {
+  constexpr std::size_t kMost = 8;
+  std::vector<ReferenceLine> lines;
+  for (const AlertCourse& alert : run.alerts) {
+    const bool known = std::any_of(lines.begin(), lines.end(), [&](const ReferenceLine& line) {
+      return line.label == alert.worst.type;
+    });
+    if (alert.worst.system == system.name && !known && lines.size() < kMost &&
+        alert.worst.severity != state::Severity::kInfo) {
+      lines.push_back({alert.raised, alert.worst.type});
+    }
+  }
+  return lines;
+}
+
+/// Its levels of alert and danger, at the speed that the shaft has.
+void addLevels(const SystemCourse& system, Chart& chart) {
+  for (const bool danger : {false, true}) {
+    if ((danger ? system.levels.danger : system.levels.alert).empty()) {
+      continue;
+    }
+    Series level{danger ? "danger level" : "alert level", system.time, {}};
+    level.pen = Pen{danger ? ink::kVermilion : ink::kOrange, 1.6, {6.0, 3.0}};
+    for (const double speed : system.speed) {
+      const double at = std::fabs(speed);
+      level.y.push_back(danger ? system.levels.dangerAt(at) : system.levels.alertAt(at));
+    }
+    chart.series.push_back(level);
+  }
+}
+
 void addResonances(const SystemCourse& system, ReportPage& page) {
   if (system.resonances.empty()) {
     return;
@@ -184,7 +216,13 @@ Figure figure(const MonitoredLog& run, const SystemCourse& system) {
     figure.charts.push_back(chart);
   };
   add("speed of the shaft (rad/s)", system.time, system.speed);
-  add("vibration about the mean (m, 0-peak)", system.time, system.vibration);
+  if (!figure.charts.empty()) {
+    figure.charts.front().vertical = namesOfAlerts(run, system);
+  }
+  if (any(system.vibration)) {
+    add("vibration about the mean (m, 0-peak)", system.time, system.vibration);
+    addLevels(system, figure.charts.back());
+  }
   add("1X amplitude (m)", system.orders.time, system.orders.amplitude);
   if (!system.orders.line_time.empty()) {
     add("largest non-synchronous component (rad/s)", system.orders.line_time,

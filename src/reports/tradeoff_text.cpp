@@ -35,8 +35,8 @@ constexpr double kErrorDrawnForZero = 1.0e-16;
 /// Each method has one, whichever others there are: the twelfth is the first again.
 Pen methodPen(const std::string& integrator) {
   static constexpr std::array kInks{ink::kBlue,   ink::kVermilion, ink::kGreen, ink::kPurple,
-                                    ink::kOrange, ink::kSkyBlue,   ink::kBrown, ink::kGrey,
-                                    ink::kOlive,  ink::kNavy,      ink::kBlack};
+                                    ink::kOrange, ink::kSkyBlue,   ink::kNavy,  ink::kGrey,
+                                    ink::kOlive,  ink::kPink,      ink::kBlack};
   const auto& methods = stepMethods();
   const auto method = std::find_if(methods.begin(), methods.end(),
                                    [&](const StepMethod& m) { return m.name == integrator; });

@@ -1,5 +1,7 @@
 #include "requests/rotor_requests.h"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -157,6 +159,27 @@ Document mapDocument(const Scene& scene, const std::optional<std::string>& syste
                      const CriticalMapRequest& request) {
   return rotorDocument(rotorsOf(scene, system),
                        [&](const RotorSystem& rotor) { return criticalMapReport(rotor, request); });
+}
+
+Document balanceDocument(const Scene& scene, const MeasuredBalanceRequest& request) {
+  const UnbalanceRequest& unbalance = request.unbalance;
+  if (!(unbalance.from >= 0.0 && unbalance.from < unbalance.to)) {
+    throw InputError(fmt::format("--from, --to: --from must be < --to, found {:g} and {:g} rad/s",
+                                 unbalance.from, unbalance.to));
+  }
+  requireLcmPrefix(request.lcm_prefix);
+  const SceneRotors of(scene, request.system);
+  if (of.rotors.size() > 1) {
+    throw InputError("--system: missing; must name the rotor that the log belongs to");
+  }
+  const RotorSystem& rotor = of.rotors.front();
+  const UnbalanceReport report = unbalanceReport(
+      rotor, RotorRecord(of.scene, rotor, request.measured, request.lcm_prefix), unbalance);
+  Document document;
+  document.json = json(report);
+  document.text = text(report);
+  document.tables = tables(report);
+  return document;
 }
 
 }  // namespace whirl_twin

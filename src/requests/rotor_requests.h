@@ -1,5 +1,5 @@
 // What is requested of the rotors of a scene, by the command line and by Python: Campbell diagram,
-// unbalance response, orbits, modes, stability level I, critical speed map.
+// unbalance response, orbits, modes, stability level I, critical speed map, balancing from a log.
 #pragma once
 
 #include <optional>
@@ -10,6 +10,7 @@
 #include "reports/level_one_report.h"
 #include "reports/response_report.h"
 #include "reports/rotor_systems.h"
+#include "reports/unbalance_report.h"
 #include "requests/document.h"
 #include "requests/work_progress.h"
 #include "scene/scene.h"
@@ -58,5 +59,14 @@ Document stabilityDocument(const Scene& scene, const std::optional<std::string>&
 
 Document mapDocument(const Scene& scene, const std::optional<std::string>& system,
                      const CriticalMapRequest& request);
+
+struct MeasuredBalanceRequest {
+  std::optional<std::string> system;
+  std::string measured;  ///< path of a log of the running machine
+  UnbalanceRequest unbalance;
+  std::string lcm_prefix = kDefaultLcmPrefix;
+};
+/// Of one rotor, and without the names of scene and system around its values.
+Document balanceDocument(const Scene& scene, const MeasuredBalanceRequest& request);
 
 }  // namespace whirl_twin

@@ -7,8 +7,7 @@
 #include "algebra/constants.h"
 #include "messages/names.h"
 #include "reports/csv_table.h"
-#include "reports/rotor_record.h"
-#include "reports/unbalance_report.h"
+#include "requests/rotor_requests.h"
 #include "requests/shipped_scenes.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
@@ -56,9 +55,8 @@ constexpr const char* kBalanceFooter =
 
 struct BalanceRequest {
   std::string file;
-  std::optional<std::string> measured, system, csv;
-  UnbalanceRequest unbalance;
-  std::string lcm_prefix = kDefaultLcmPrefix;
+  std::optional<std::string> measured, csv;
+  MeasuredBalanceRequest log;
   bool json = false;
 };
 
@@ -166,22 +164,8 @@ int balanceRuns(const BalanceRequest& request) {
 }
 
 int balanceMeasured(const BalanceRequest& request) {
-  if (!(request.unbalance.from >= 0.0 && request.unbalance.from < request.unbalance.to)) {
-    throw InputError(fmt::format("--from, --to: --from must be < --to, found {:g} and {:g} rad/s",
-                                 request.unbalance.from, request.unbalance.to));
-  }
-  requireLcmPrefix(request.lcm_prefix);
-  const BuiltScene scene = build(readSceneFile(scenePath(request.file)));
-  const auto systems = rotorSystems(scene, request.system);
-  if (systems.size() > 1) {
-    throw InputError("--system: missing; must name the rotor that the log belongs to");
-  }
-  const RotorRecord record(scene, systems.front(), *request.measured, request.lcm_prefix);
-  const UnbalanceReport report = unbalanceReport(systems.front(), record, request.unbalance);
-  if (request.csv) {
-    writeCsv(*request.csv, tables(report));
-  }
-  return printReport(request.json, json(report), text(report));
+  const Scene scene = readSceneFile(scenePath(request.file));
+  return printDocument(balanceDocument(scene, request.log), request.json, request.csv);
 }
 
 }  // namespace
@@ -195,20 +179,21 @@ void addBalanceCommand(const ProgramCommand& twin, int& status) {
   const Option measured =
       command.option("--measured", request->measured, "log of the running machine").type("LOG");
   const auto with_log = [measured](const Option& option) { return option.needs(measured); };
-  with_log(command.option("--system", request->system, "this rotor").type("NAME"));
+  with_log(command.option("--system", request->log.system, "this rotor").type("NAME"));
   with_log(
       command
-          .option("--planes", request->unbalance.planes,
+          .option("--planes", request->log.unbalance.planes,
                   "stations where masses can be added; default: those of the scene's unbalances")
           .type("STATION"));
-  with_log(command.option("--from", request->unbalance.from, "rad/s; slower intervals are left out")
+  with_log(
+      command.option("--from", request->log.unbalance.from, "rad/s; slower intervals are left out")
+          .type("W"));
+  with_log(command.option("--to", request->log.unbalance.to, "rad/s; faster intervals are left out")
                .type("W"));
-  with_log(command.option("--to", request->unbalance.to, "rad/s; faster intervals are left out")
-               .type("W"));
-  with_log(command.flag("--known-run-out", request->unbalance.run_out_known,
+  with_log(command.flag("--known-run-out", request->log.unbalance.run_out_known,
                         "use the run-out of the scene's sensors, 0 where they have none"));
   with_log(command
-               .option("--lcm-prefix", request->lcm_prefix,
+               .option("--lcm-prefix", request->log.lcm_prefix,
                        "prefix of the log's channels; default: TWIN_")
                .type("PREFIX"));
   addCsvOption(command, request->csv);
@@ -216,6 +201,7 @@ void addBalanceCommand(const ProgramCommand& twin, int& status) {
   command.footer(kBalanceFooter);
   command.callback([request, &status] {
     requireCsvName(request->csv);
+    request->log.measured = request->measured.value_or("");
     status = request->measured ? balanceMeasured(*request) : balanceRuns(*request);
   });
 }

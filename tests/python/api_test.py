@@ -244,6 +244,25 @@ class Reports(unittest.TestCase):
             self.assertEqual(wt.modes("balancing", measured=log).to_dict(),
                              printed("modes", "balancing", "--measured", log))
 
+    def test_balancing_from_a_log_is_that_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            log = os.path.join(folder, "run.lcmlog")
+            subprocess.run([PROGRAM, "simulate", "balancing", "--measure", "sensors", "--output", log], check=True,
+                           capture_output=True)
+            result = wt.balance("balancing", measured=log, planes=["node_2", "node_4"], from_=30, to="700 rpm")
+            options = ("--planes", "node_2", "node_4", "--from", "30", "--to", str(700 * math.pi / 30))
+            self.assertEqual(result.to_dict(), printed("balance", "balancing", "--measured", log, *options))
+            # 600 g mm at 0.9 rad, as the scene has it; the correction is opposite.
+            found = result.unbalance["node_2"]
+            self.assertLess(abs(found.mass_radius - 6.0e-4), 5.0 * found.mass_radius_deviation)
+            turn = result.correction["node_2"].angle - found.angle
+            self.assertAlmostEqual(math.cos(math.radians(turn)), -1.0, 9)
+            self.assertEqual(result.to_dataframe()["plane"].tolist(), ["node_2", "node_4"])
+            with self.assertRaisesRegex(wt.InputError, "expected samples with a known angle"):
+                wt.balance("balancing", measured=log, from_=300)
+        with self.assertRaisesRegex(wt.InputError, "--from must be < --to"):
+            wt.balance("balancing", measured=log, from_=50, to=40)
+
 
 class Package(unittest.TestCase):
     def test_nothing_is_loaded_before_it_is_used(self):

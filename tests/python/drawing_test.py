@@ -147,7 +147,18 @@ class Charts(unittest.TestCase):
     def test_one_exponent_per_axis(self):
         (ax,) = axes_of(chart([series([0, 1], [0, 3e-4])]))
         self.assertEqual(labels(ax.yaxis)[-1], "300")
-        self.assertEqual(ax.yaxis.get_major_formatter().get_offset(), "×10⁻⁶")
+        self.assertEqual(ax.get_ylabel(), "x (µm)")
+        self.assertEqual(ax.yaxis.get_major_formatter().get_offset(), "")
+        for label, scaled in (("U (kg m)", "U (10⁻⁶ kg m)"), ("A (m^2)", "A (10⁻⁶ m^2)"), ("M (N m)", "M (µN m)"),
+                              ("decrement of 1", "decrement of 1 (10⁻⁶)"), ("", "10⁻⁶")):
+            (ax,) = axes_of(chart([series([0, 1], [0, 3e-4])], y={"label": label}))
+            self.assertEqual(ax.get_ylabel(), scaled)
+        (ax,) = axes_of(chart([series([0, 1], [0, 3e5])], y={"label": "time (s)"}))
+        self.assertEqual(ax.get_ylabel(), "time (10³ s)")
+        both = axes_of(chart([series([0, 1], [0, 1])], x={"second": {"label": "rpm", "factor": 1e6}}))[0]
+        both.figure.savefig(os.devnull, format="png")
+        self.assertEqual(both.child_axes[0].get_xlabel(), "10⁶ rpm")
+        self.assertEqual(labels(both.child_axes[0].xaxis)[-1], "1.0")
 
     def test_bands_cover_their_range_inside_the_axes(self):
         bands = [{"name": "danger", "low": 2, "high": 3, "color": "#ff0000"}, {"low": 9, "high": 99, "color": "#00ff00"}]
@@ -183,6 +194,30 @@ class Charts(unittest.TestCase):
         self.assertAlmostEqual(places[0].x0, places[2].x0)
         self.assertGreater(places[0].y0, places[2].y1)
         self.assertEqual(axes[0].figure.get_size_inches()[0], 9)
+
+    def test_a_legend_explains_each_look_once(self):
+        pair = [{**RAMP, "name": "a"}, {**RAMP, "name": "b"}]
+        first, again, more = axes_of(chart(pair), chart(pair), chart([*pair, {**RAMP, "name": "c"}]))
+        names = [[text.get_text() for legend in ax.get_children() if isinstance(legend, matplotlib.legend.Legend)
+                  for text in legend.get_texts()] for ax in (first, again, more)]
+        self.assertEqual(names, [["a", "b"], [], ["c"]])
+
+    def test_a_line_that_fills_its_chart_is_finer(self):
+        t = np.linspace(0, 1, 20000)
+        (ax,) = axes_of(chart([series(t, np.sin(3000 * t)), series(t, np.sin(10 * t))]))
+        self.assertLess(ax.lines[0].get_linewidth(), 0.5 * ax.lines[1].get_linewidth())
+
+    def test_a_coarse_orbit_is_drawn_round_and_a_square_with_corners(self):
+        from whirl_twin.drawing.thinning import smooth
+
+        turns = np.arange(40) * math.pi / 4
+        (ax,) = axes_of(chart([series(np.cos(turns), np.sin(turns)), series([0, 1, 1, 0, 0, 1], [0, 0, 1, 1, 0, 0])],
+                              equal_aspect=True))
+        smooth(ax.figure)
+        radius = np.hypot(*ax.lines[0].get_data())
+        self.assertGreater(len(radius), 200)
+        np.testing.assert_allclose(radius[10:-10], 1.0, atol=0.02)
+        self.assertEqual(len(ax.lines[1].get_xdata()), 6)
 
     def test_legends_are_above_the_chart(self):
         drawn = drawing.draw(figure(chart([{**RAMP, "name": f"a long name of a series {i}"} for i in range(9)])))

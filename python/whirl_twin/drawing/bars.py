@@ -8,7 +8,7 @@ from matplotlib.patches import Patch
 
 from . import style
 from .style import PX
-from .ticks import TickLabels, Ticks, data_range, most_across, ticks_of
+from .ticks import data_range, most_across, set_axis, ticks_of
 
 _WIDTH = 800.0  # px
 _BAR = 15.0  # px, with the space between bars
@@ -89,18 +89,11 @@ def _sheet(chart: dict, names: list, height: float):
 
 def _set_axes(ax, chart: dict, fields: dict, low: float, high: float, width: float) -> None:
     ax.set_xlim((high, low) if fields["inverted"] else (low, high))
-    ax.xaxis.set_major_locator(Ticks(fields, lambda a, b: most_across(fields, width, a, b)))
-    ax.xaxis.set_major_formatter(TickLabels(False))
-    ax.grid(True, axis="x", color=style.GRID, linewidth=1.0 * PX)
-    ax.set_axisbelow(True)
-    ax.tick_params(axis="x", length=4.0 * PX, color=style.GREY, labelsize=style.TICK * PX)
-    ax.xaxis.get_offset_text().set_size(style.TICK * PX)
-    ax.xaxis.get_offset_text().set_color(style.BLACK)
+    set_axis(ax.xaxis, fields, chart["x"]["label"],
+             lambda a, b: most_across(fields, width, a, b), width + 40.0)
+    ax.grid(True, axis="x")
     for side in ("top", "right", "left"):
         ax.spines[side].set_visible(False)
-    ax.spines["bottom"].set_color(style.GREY)
-    text, size = style.fitted(chart["x"]["label"], style.LABEL, width + 40.0)
-    ax.set_xlabel(text, size=size * PX, labelpad=5.0 * PX, color=style.BLACK)
 
 
 def _draw_bar(ax, base: float, bar: dict, y: float, color: str) -> None:

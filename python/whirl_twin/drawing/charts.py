@@ -11,14 +11,15 @@ from matplotlib.patches import Patch, Polygon
 from . import style
 from .labels import MARK, label_chart
 from .style import PX
-from .ticks import (FineTicks, TickLabels, Ticks, data_range, exponent_of, linear_labels,
-                    linear_ticks, logarithmic_labels, most_across, shown, ticks_of)
+from .ticks import (data_range, exponent_of, linear_labels, linear_ticks, logarithmic_labels,
+                    most_across, scaled_label, set_axis, shown, ticks_of)
 
 _SECOND_SCALE = 44.0  # px, above a chart
 _RIGHT = 22.0  # px
 _FOOT = 50.0  # px, of tick labels and label below a chart
 _PER_TICK = 30.0  # px, at least, along a vertical axis
 _MANY_MARKS = 2000
+_DENSE = 0.5  # of the area of a chart
 _FREE_LEGEND_ROWS = 2  # more make a chart higher instead of its curves lower
 
 
@@ -30,9 +31,27 @@ def pen_of(series: dict, index: int) -> dict:
     return {"color": style.PALETTE[index % len(style.PALETTE)], "width": style.LINE, "dash": dash}
 
 
-def _legend_names(chart: dict) -> List[str]:
-    names = [item["name"] for item in chart["series"] + chart["bands"] if item["name"]]
-    return names if len(names) > 1 else []
+def _legend(chart: dict) -> Dict[Tuple[str, str], Any]:
+    """By name and look of each entry its handle; none of a single one, which the axes name."""
+    looks = [(series["name"], series["fill"] or _look(series, pen_of(series, i)))
+             for i, series in enumerate(chart["series"])]
+    looks += [(band["name"], band["color"]) for band in chart["bands"]]
+    entries = {
+        (name, repr(look)): Line2D([], [], **look) if isinstance(look, dict)
+        else Patch(facecolor=look, edgecolor=style.GREY, linewidth=0.6)
+        for name, look in looks if name}
+    return entries if len(entries) > 1 else {}
+
+
+def _legends(charts: List[dict]) -> List[Dict[Tuple[str, str], Any]]:
+    """Of each chart; what an earlier chart of the figure explains is not repeated."""
+    known: set = set()
+    legends = []
+    for chart in charts:
+        legend = _legend(chart)
+        legends.append({entry: handle for entry, handle in legend.items() if entry not in known})
+        known |= set(legend)
+    return legends
 
 
 def _range(chart: dict, way: str) -> Tuple[float, float]:
@@ -42,9 +61,9 @@ def _range(chart: dict, way: str) -> Tuple[float, float]:
 class _Layout:
     """The places of one chart's parts [px], from the upper left corner of its cell."""
 
-    def __init__(self, chart: dict, width: float, height: float):
+    def __init__(self, chart: dict, width: float, height: float, legend: dict):
         self.chart = chart
-        self.names = _legend_names(chart)
+        self.names, self.handles = [name for name, _ in legend], list(legend.values())
         self.rows = style.legend_rows(self.names, width - 70.0)
         self.extra = style.LEGEND_ROW * max(0, self.rows - _FREE_LEGEND_ROWS)
         self.title, self.title_size = style.fitted(
@@ -59,10 +78,10 @@ class _Layout:
         if not fixed:
             self.y = (ticks[0], ticks[-1])
         self.y_labels, exponent = _labels(chart["y"], ticks)
-        # The exponent and the second scale are above the chart.
-        self.above = _SECOND_SCALE if chart["x"]["second"] else 22.0 if exponent else 0.0
+        self.above = _SECOND_SCALE if chart["x"]["second"] else 0.0
         self.top += self.above
-        label, size = style.fitted(chart["y"]["label"], style.LABEL, height - self.top)
+        label, size = style.fitted(
+            scaled_label(chart["y"]["label"], exponent), style.LABEL, height - self.top)
         self.left = (23.0 + style.height_of(label, size)
                      + max(style.text_width(label, style.TICK) for label in self.y_labels))
         self.right = _RIGHT
@@ -104,7 +123,7 @@ def draw_charts(figure: dict, ax=None):
     if ax is not None:
         if charts:
             width, height = style.size_of(ax)
-            layout = _Layout(charts[0], width + 70.0, height + 90.0)
+            layout = _Layout(charts[0], width + 70.0, height + 90.0, _legend(charts[0]))
             _finish_equal(layout, width, height)
             layout.finish_x(width)
             _draw_chart(ax, layout, width, width, True)
@@ -114,7 +133,8 @@ def draw_charts(figure: dict, ax=None):
         return ax.figure
     columns = figure["columns"]
     cell = figure["width"] / columns
-    layouts = [_Layout(chart, cell, figure["chart_height"]) for chart in charts]
+    layouts = [_Layout(chart, cell, figure["chart_height"], legend)
+               for chart, legend in zip(charts, _legends(charts))]
     rows = [layouts[i : i + columns] for i in range(0, len(layouts), columns)]
     heights = [figure["chart_height"] + max(layout.extra for layout in row) for row in rows]
     top = style.title_space(figure["title"], figure["width"])
@@ -167,7 +187,6 @@ def _draw_chart(
     """All of a chart; `clip`: marks end at the frame, as axes that can be zoomed need."""
     chart = layout.chart
     _set_axes(ax, layout)
-    handles = []
     curves = []
     for band in chart["bands"]:
         low, high = max(band["low"], layout.x[0]), min(band["high"], layout.x[1])
@@ -186,9 +205,6 @@ def _draw_chart(
                                edgecolor="none", zorder=1.0 + 1.0e-4 * i, label=series["name"])
                 ax.add_patch(area)
         _add_series(ax, series, pen, x, y, i, clip)
-        if series["name"]:
-            handles.append(Patch(facecolor=series["fill"], edgecolor=style.GREY, linewidth=0.6)
-                           if series["fill"] else Line2D([], [], **_look(series, pen)))
         spots = np.column_stack((x, y))
         if series["fill"] and len(spots):
             spots = np.vstack((spots, spots[:1]))  # a label is not across its border
@@ -201,10 +217,8 @@ def _draw_chart(
     for line in chart["horizontal"]:
         if layout.y[0] <= line["at"] <= layout.y[1]:
             ax.axhline(line["at"], **reference)
-    handles += [Patch(facecolor=band["color"], edgecolor=style.GREY, linewidth=0.6)
-                for band in chart["bands"] if band["name"]]
     if layout.names:
-        style.add_legend(ax, handles, layout.names, legend_width, layout.above + 7.0, legend_space)
+        style.add_legend(ax, layout.handles, layout.names, legend_width, layout.above + 7.0, legend_space)
     ax.set_xlim(layout.x[::-1] if chart["x"]["inverted"] else layout.x)
     ax.set_ylim(layout.y[::-1] if chart["y"]["inverted"] else layout.y)
     label_chart(ax, chart, curves)
@@ -235,6 +249,10 @@ def _add_series(
         x, y, zorder=(3.0 if marked else 2.0) + 1.0e-4 * index, label=series["name"] or "_",
         clip_on=clip or not marked, **_look(series, pen),
     )
+    ink = 0.0 if marked else _ink(ax, x, y, pen["width"])
+    if ink > _DENSE:  # a band: of a finer line the inside, and what is behind it, are seen
+        line.set_linewidth(max(0.4, pen["width"] * _DENSE / ink) * PX)
+        line.set_alpha(0.8)
     if series["line"] and not series["fill"] and not marked:
         alone = _alone(x, y)
         if alone.any():  # a point between two gaps has no line: it is a dot
@@ -243,6 +261,16 @@ def _add_series(
             line.set_markeredgewidth(0.0)
             line.set_markevery(np.flatnonzero(alone).tolist())
             line.set_clip_on(clip)
+
+
+def _ink(ax, x: np.ndarray, y: np.ndarray, width: float) -> float:
+    """Area of a line of a width [px] in areas of its axes, overlaps counted; linear scales only."""
+    if ax.get_xscale() == "log" or ax.get_yscale() == "log":
+        return 0.0
+    sides = style.size_of(ax)
+    steps = [np.diff(row) * side / np.ptp(ends) for row, side, ends in
+             zip((x, y), sides, (ax.get_xlim(), ax.get_ylim()))]
+    return width * float(np.nansum(np.hypot(*steps))) / (sides[0] * sides[1])
 
 
 def _alone(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -254,40 +282,23 @@ def _alone(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 def _set_axes(ax, layout: _Layout) -> None:
     chart = layout.chart
     width, height = style.size_of(ax)
-    for way, axis, length in (("x", ax.xaxis, width), ("y", ax.yaxis, height)):
-        fields = chart[way]
-        if fields["logarithmic"]:
-            (ax.set_xscale if way == "x" else ax.set_yscale)("log")
-        axis.set_major_locator(Ticks(fields, _most(fields, way, length)))
-        axis.set_major_formatter(TickLabels(fields["logarithmic"]))
-        if fields["logarithmic"]:
-            axis.set_minor_locator(FineTicks())
-            axis.set_minor_formatter(_nothing())
-            axis.grid(True, which="minor", color=style.FINE_GRID, linewidth=0.8 * PX)
-        axis.grid(True, which="major", color=style.GRID, linewidth=1.0 * PX)
-        axis.set_tick_params(which="major", length=4.0 * PX, width=1.0 * PX, color=style.GREY,
-                             labelsize=style.TICK * PX, labelcolor=style.BLACK)
-        axis.set_tick_params(which="minor", length=0.0)
-        axis.get_offset_text().set_size(style.TICK * PX)
-        axis.get_offset_text().set_color(style.BLACK)
-    ax.set_axisbelow(True)
-    for spine in ax.spines.values():
-        spine.set_color(style.GREY)
-        spine.set_linewidth(1.2 * PX)
-    ax.set_xlim(layout.x)
-    ax.set_ylim(layout.y)
+    ax.set(xscale="log" if chart["x"]["logarithmic"] else "linear",
+           yscale="log" if chart["y"]["logarithmic"] else "linear", xlim=layout.x, ylim=layout.y)
+    step = exponent = None
     if chart["equal_aspect"]:
-        _share_ticks(ax, layout, width, height)
-    ax.yaxis.get_offset_text().set_ha("right")
-    ax.yaxis.get_offset_text().set_x(-6.0 / width)
-    ax.yaxis.OFFSETTEXTPAD = 8.0 * PX
-    text, size = style.fitted(chart["x"]["label"], style.LABEL, width + 40.0)
-    ax.set_xlabel(text, size=size * PX, labelpad=4.0 * PX, color=style.BLACK)
-    text, size = style.fitted(chart["y"]["label"], style.LABEL, height + _FOOT)
-    ax.set_ylabel(text, size=size * PX, labelpad=5.0 * PX, color=style.BLACK)
+        step, exponent = _shared_ticks(layout, width, height)
+    for way, axis, length, label in (
+        ("x", ax.xaxis, width, width + 40.0), ("y", ax.yaxis, height, height + _FOOT)
+    ):
+        fields = chart[way]
+        set_axis(axis, fields, fields["label"], _most(fields, way, length), label, exponent)
+        axis.get_major_locator().step = step
+        if fields["logarithmic"]:
+            axis.grid(True, which="minor", color=style.FINE_GRID, linewidth=0.8 * PX)
+        axis.grid(True, which="major")
     if layout.title:
         ax.set_title(layout.title, size=layout.title_size * PX, weight="bold", y=1.0,
-                     color=style.BLACK, pad=(layout.legend_height + layout.above + 7.0) * PX)
+                     pad=(layout.legend_height + layout.above + 7.0) * PX)
     _add_second_scales(ax, chart, width, height)
 
 
@@ -297,13 +308,7 @@ def _most(fields: dict, way: str, length: float, ceiling: int = 9):
     return lambda low, high: most_across(fields, length, low, high, ceiling)
 
 
-def _nothing():
-    from matplotlib.ticker import NullFormatter
-
-    return NullFormatter()
-
-
-def _share_ticks(ax, layout: _Layout, width: float, height: float) -> None:
+def _shared_ticks(layout: _Layout, width: float, height: float) -> Tuple[float, int]:
     """Ticks of equal scales have the same step and one exponent."""
     steps, sizes = [], []
     for way, (low, high), length in (("x", layout.x, width), ("y", layout.y, height)):
@@ -311,11 +316,7 @@ def _share_ticks(ax, layout: _Layout, width: float, height: float) -> None:
         ticks = linear_ticks(low, high, most, True)
         steps.append(ticks[1] - ticks[0])
         sizes += ticks
-    exponent = exponent_of(sizes)
-    for axis in (ax.xaxis, ax.yaxis):
-        step = max(steps)
-        axis.get_major_locator().step = step
-        axis.get_major_formatter().least_exponent = exponent
+    return max(steps), exponent_of(sizes)
 
 
 def _add_second_scales(ax, chart: dict, width: float, height: float) -> None:
@@ -326,22 +327,12 @@ def _add_second_scales(ax, chart: dict, width: float, height: float) -> None:
         factor = second["factor"]
         functions = (lambda v, f=factor: v * f, lambda v, f=factor: v / f)
         fields = {**chart[way], "degrees": False}
-        if way == "x":
-            scale = ax.secondary_xaxis("top", functions=functions)
-            axis = scale.xaxis
-        else:
-            scale = ax.secondary_yaxis("right", functions=functions)
-            axis = scale.yaxis
-        axis.set_major_locator(Ticks(fields, _most(fields, way, length, 8)))
-        axis.set_major_formatter(TickLabels(fields["logarithmic"]))
-        if fields["logarithmic"]:
-            axis.set_minor_locator(FineTicks())
-            axis.set_minor_formatter(_nothing())
-        axis.set_tick_params(which="both", length=4.0 * PX, width=1.0 * PX, color=style.GREY,
-                             labelsize=style.TICK * PX, labelcolor=style.BLACK, pad=3.0 * PX)
-        axis.set_label_text(second["label"], size=style.TICK * PX, color=style.BLACK)
-        axis.labelpad = 4.0 * PX
-        axis.get_offset_text().set_size(style.TICK * PX)
-        for spine in scale.spines.values():
-            spine.set_color(style.GREY)
-            spine.set_linewidth(1.2 * PX)
+        scale = (ax.secondary_xaxis("top", functions=functions) if way == "x"
+                 else ax.secondary_yaxis("right", functions=functions))
+        axis = scale.xaxis if way == "x" else scale.yaxis
+        # Its own limits are set when it is drawn.
+        (scale.set_xlim if way == "x" else scale.set_ylim)(
+            *(factor * end for end in (ax.get_xlim() if way == "x" else ax.get_ylim())))
+        set_axis(axis, fields, second["label"], _most(fields, way, length, 8), length)
+        axis.label.set_size(style.TICK * PX)
+        axis.set_tick_params(which="major", pad=3.0 * PX)

@@ -12,12 +12,16 @@ from matplotlib.patches import Patch
 from . import style
 from .request import RequestError
 from .style import PX
-from .ticks import (TickLabels, Ticks, data_range, exponent_of, linear_labels, linear_ticks,
-                    logarithmic_labels, most_across, shown, ticks_of)
+from .ticks import (data_range, exponent_of, linear_labels, linear_ticks, logarithmic_labels,
+                    most_across, set_axis, shown, ticks_of)
 
 _WIDTH, _HEIGHT = 800.0, 560.0  # px
 _CONTOUR_DASHES = ((), (7.0, 4.0), (2.5, 3.0), (9.0, 3.0, 2.0, 3.0))
 HOLE_NAME = "failed or undefined"
+
+
+def _most_up(low: float, high: float) -> int:
+    return 10
 
 
 def _levels(chart: dict, way: str) -> np.ndarray:
@@ -107,33 +111,12 @@ def _y_labels(chart: dict, y: np.ndarray) -> list:
 
 def _set_axes(ax, chart: dict, x: np.ndarray, y: np.ndarray) -> None:
     width, height = style.size_of(ax)
-    for way, axis, length in (("x", ax.xaxis, width), ("y", ax.yaxis, height)):
+    for way, at, axis, length in (("x", x, ax.xaxis, width), ("y", y, ax.yaxis, height)):
         fields = chart[way]
-        if fields["logarithmic"]:
-            (ax.set_xscale if way == "x" else ax.set_yscale)("log")
-        most = ((lambda a, b, f=fields: most_across(f, width, a, b)) if way == "x"
-                else (lambda a, b: 10))
-        axis.set_major_locator(Ticks(fields, most))
-        axis.set_major_formatter(TickLabels(fields["logarithmic"]))
-        axis.set_minor_locator(_no_ticks())
-        axis.set_tick_params(length=4.0 * PX, color=style.GREY, labelsize=style.TICK * PX)
-        axis.get_offset_text().set_size(style.TICK * PX)
-        axis.get_offset_text().set_color(style.BLACK)
-        text, size = style.fitted(fields["label"], style.LABEL, length + 40.0)
-        axis.set_label_text(text, size=size * PX, color=style.BLACK)
-        axis.labelpad = 5.0 * PX
-    ax.yaxis.get_offset_text().set_ha("right")
-    ax.yaxis.get_offset_text().set_x(-6.0 / width)
-    ax.yaxis.OFFSETTEXTPAD = 8.0 * PX
-    ax.set_xlim((x[-1], x[0]) if chart["x"]["inverted"] else (x[0], x[-1]))
-    ax.set_ylim((y[-1], y[0]) if chart["y"]["inverted"] else (y[0], y[-1]))
-    ax.grid(False)
-
-
-def _no_ticks():
-    from matplotlib.ticker import NullLocator
-
-    return NullLocator()
+        ends = (at[-1], at[0]) if fields["inverted"] else (at[0], at[-1])
+        ax.set(**{way + "scale": "log" if fields["logarithmic"] else "linear", way + "lim": ends})
+        most = (lambda a, b, f=fields: most_across(f, width, a, b)) if way == "x" else _most_up
+        set_axis(axis, fields, fields["label"], most, length + 40.0)
 
 
 def _draw_contours(ax, chart: dict, x: np.ndarray, y: np.ndarray, values) -> None:
@@ -151,17 +134,9 @@ def _draw_contours(ax, chart: dict, x: np.ndarray, y: np.ndarray, values) -> Non
 
 
 def _set_bar(bar, chart: dict, limits: Tuple[float, float]) -> None:
+    bar.minorticks_off()
     fields = {"logarithmic": False, "degrees": False}
-    bar.ax.yaxis.set_major_locator(Ticks(fields, lambda a, b: 9))
-    bar.ax.yaxis.set_major_formatter(TickLabels(False))
-    bar.ax.tick_params(length=4.0 * PX, color=style.GREY, labelsize=style.TICK * PX)
-    bar.ax.minorticks_off()
-    bar.ax.yaxis.get_offset_text().set_size(style.TICK * PX)
-    bar.ax.yaxis.get_offset_text().set_color(style.BLACK)
-    bar.ax.yaxis.OFFSETTEXTPAD = 8.0 * PX
-    height = style.size_of(bar.ax)[1]
-    text, size = style.fitted(chart["label"], style.LABEL, height + 40.0)
-    bar.set_label(text, size=size * PX, color=style.BLACK, labelpad=6.0 * PX)
+    set_axis(bar.ax.yaxis, fields, chart["label"], lambda a, b: 9, style.size_of(bar.ax)[1] + 40.0)
     bar.outline.set_edgecolor(style.GREY)
     for contour in chart["contours"]:
         if limits[0] <= contour["at"] <= limits[1]:

@@ -7,7 +7,7 @@ import re
 from html import escape
 
 from . import style
-from .thinning import thin
+from .thinning import smooth, thin
 
 _PNG_DPI = 144
 
@@ -19,6 +19,7 @@ def image(figure, format: str) -> bytes:
     file = io.BytesIO()
     title = figure.whirl_twin_title
     with style.context():
+        smooth(figure)
         if format == "pdf":
             thin(figure, style.DPI, False)
             figure.savefig(file, format="pdf", dpi=_PNG_DPI, metadata={
@@ -34,6 +35,7 @@ def svg(figure, prefix: str = "") -> str:
     """An SVG document; its identifiers begin with `prefix`, so that a page can hold several."""
     file = io.StringIO()
     with style.context():
+        smooth(figure)
         thin(figure, style.DPI, False)
         figure.savefig(file, format="svg", dpi=_PNG_DPI, metadata={"Date": None, "Creator": None})
     text = file.getvalue()

@@ -62,6 +62,8 @@ _SETTINGS = {
     "axes.linewidth": 1.2 * PX,
     "axes.axisbelow": True,
     "axes.labelsize": LABEL * PX,
+    "axes.labelpad": 4.5 * PX,
+    "axes.titlecolor": BLACK,
     "axes.grid": False,
     "grid.color": GRID,
     "grid.linewidth": 1.0 * PX,

@@ -1,4 +1,4 @@
-"""Thinning of lines for SVG and PDF: removes what is below the resolution of a screen."""
+"""Lines for files: coarse paths are smoothed; what is below the resolution of a screen is left out."""
 
 from __future__ import annotations
 
@@ -15,7 +15,45 @@ _COARSEST = 0.9  # px, the same if there would be too many points
 _COLUMN = 0.5  # px
 _CELL = 0.75  # px, less than the width of a line
 _MOST_SAMPLES = 4.0e6  # of a line on the raster of cells
+_MOST_COARSE = 20000  # points
+_LEAST_BEND, _MOST_BEND = 0.12, 1.4  # rad, from step to step
 _MARK_CELL = 1.5  # px, marks as near as that cover each other
+
+
+def smooth(figure) -> None:
+    """Draw paths of few points, such as orbits, as smooth curves through all of them."""
+    for ax in figure.axes:
+        for line in ax.lines if (ax.get_xscale(), ax.get_yscale()) == ("linear", "linear") else ():
+            if line.get_transform() != ax.transData or line.get_marker() not in ("None", None):
+                continue
+            pieces = pieces_of(_to_px(ax, np.column_stack(line.get_data(orig=False))))
+            finer = [_curve(piece) if _coarse(piece) else piece for piece in pieces]
+            if sum(map(len, finer)) > sum(map(len, pieces)):
+                line.set_data(*_to_data(ax, _joined(finer)).T)
+
+
+def _coarse(spots: np.ndarray) -> bool:
+    """Is a path made of few points a turn? A function of x, noise and sharp corners stay."""
+    steps = np.diff(spots, axis=0)
+    if not 4 <= len(spots) <= _MOST_COARSE or (steps[:, 0] >= 0.0).all():
+        return False
+    way = np.arctan2(steps[:, 1], steps[:, 0])
+    bend = np.abs((np.diff(way) + np.pi) % (2.0 * np.pi) - np.pi)
+    return bool(_LEAST_BEND < np.median(bend) < _MOST_BEND and np.hypot(*steps.T).max() > 3.0)
+
+
+def _curve(spots: np.ndarray, parts: int = 6) -> np.ndarray:
+    """Cubics that join smoothly (E. Catmull and R. Rom, 1974)."""
+    ends = np.vstack((2.0 * spots[0] - spots[1], spots, 2.0 * spots[-1] - spots[-2]))
+    a, b, c, d = (ends[i : len(ends) - 3 + i, None] for i in range(4))
+    s = (np.arange(parts) / parts)[None, :, None]
+    between = b + 0.5 * s * (c - a + s * (2.0 * a - 5.0 * b + 4.0 * c - d + s * (3.0 * (b - c) + d - a)))
+    return np.vstack((between.reshape(-1, 2), spots[-1:]))
+
+
+def _joined(pieces: List[np.ndarray]) -> np.ndarray:
+    gap = np.full((1, 2), np.nan)
+    return np.concatenate([row for piece in pieces for row in (gap, piece)][1:])
 
 
 def thin(figure, dpi: float, pixels: bool) -> None:
@@ -62,9 +100,7 @@ def _thin_line(ax, line, most: int, dpi: float) -> None:
         pieces = [part for piece in pieces
                   for part in without_repeats(piece, max(2, int(share * len(piece))))]
     if pieces:
-        gap = np.full((1, 2), np.nan)
-        joined = np.concatenate([row for piece in pieces for row in (gap, piece)][1:])
-        line.set_data(*_to_data(ax, joined, dpi).T)
+        line.set_data(*_to_data(ax, _joined(pieces), dpi).T)
 
 
 def _marks(line) -> int:

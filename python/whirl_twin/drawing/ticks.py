@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Iterable, List, Sequence, Tuple
 
 import numpy as np
-from matplotlib.ticker import Formatter, Locator
+from matplotlib.ticker import Formatter, Locator, NullFormatter
+
+from . import style
 
 MOST = 1.0e300  # beyond it lengths of axes leave the range of double
 LEAST = 1.0e-280  # a shorter linear axis cannot be mapped by matplotlib
@@ -162,26 +165,18 @@ def logarithmic_labels(ticks: Sequence[float]) -> List[str]:
 
 
 class TickLabels(Formatter):
-    """Labels with the exponent beside the axis."""
+    """Labels of ticks, divided by the power of ten that the label of the axis names."""
 
-    def __init__(self, logarithmic: bool):
-        self.logarithmic = logarithmic
-        self.exponent = 0
-        self.least_exponent = None  # equal scales share the larger exponent
+    def __init__(self, logarithmic: bool, exponent: int):
+        self.logarithmic, self.exponent = logarithmic, exponent
         self._labels: dict = {}
 
     def set_locs(self, locs) -> None:
         self.locs = list(locs)
-        self.exponent, self._labels = 0, {}
-        if not self.locs:
-            return
-        if self.logarithmic:
-            labels = logarithmic_labels(self.locs)
-        else:
-            self.exponent = exponent_of(self.locs)
-            if self.least_exponent is not None:
-                self.exponent = self.least_exponent
-            labels = linear_labels(self.locs, self.exponent)
+        labels = []
+        if self.locs:
+            labels = (logarithmic_labels(self.locs) if self.logarithmic
+                      else linear_labels(self.locs, self.exponent))
         self._labels = dict(zip(self.locs, labels))
 
     def __call__(self, value, position=None) -> str:
@@ -190,8 +185,42 @@ class TickLabels(Formatter):
     def format_data_short(self, value) -> str:
         return f"{value:.6g}"
 
-    def get_offset(self) -> str:
-        return "×10" + superscript(self.exponent) if self.exponent else ""
+
+# Units that take a prefix, also as the first of several: N m, m/s, but not m^2.
+_PREFIXED = re.compile(r"(?<![^ (])(m|s|N|J|W|Hz|V|A|Pa|rad)(?![\w^²³])")
+_PREFIXES = {-9: "n", -6: "µ", -3: "m", 3: "k", 6: "M", 9: "G"}
+
+
+def scaled_label(label: str, exponent: int) -> str:
+    """The label of an axis whose ticks are divided by a power of ten: x (µm), x (10⁻³ kg m)."""
+    if exponent == 0:
+        return label
+    power = "10" + superscript(exponent)
+    name, bracket, unit = label.rpartition(" (")
+    if not bracket or not unit.endswith(")"):
+        return f"{label} ({power})" if " " in label else f"{power} {label}".rstrip()
+    first = _PREFIXED.match(unit)
+    if first and exponent in _PREFIXES and not (exponent > 0 and first[1] in ("s", "rad")):
+        return f"{name} ({_PREFIXES[exponent]}{unit}"
+    return f"{name} ({power} {unit}"
+
+
+def set_axis(axis, fields: dict, label: str, most, length: float, exponent=None) -> None:
+    """Ticks, their labels and the label of an axis of a length [px], whose limits are set.
+
+    `most`: number of ticks as a function of the limits; `exponent`: by default that of the ticks.
+    """
+    axis.set_major_locator(Ticks(fields, most))
+    if exponent is None:
+        ticks = axis.get_major_locator().tick_values(*axis.get_view_interval())
+        exponent = 0 if fields["logarithmic"] or not ticks else exponent_of(ticks)
+    axis.set_major_formatter(TickLabels(fields["logarithmic"], exponent))
+    if fields["logarithmic"]:
+        axis.set_minor_locator(FineTicks())
+        axis.set_minor_formatter(NullFormatter())
+    axis.set_tick_params(which="minor", length=0.0)
+    text, size = style.fitted(scaled_label(label, exponent), style.LABEL, length)
+    axis.set_label_text(text, size=size * style.PX)
 
 
 class Ticks(Locator):
@@ -243,11 +272,6 @@ class FineTicks(Locator):
         return [tick for tick in ticks if low <= tick <= high]
 
 
-def widest(labels: Sequence[str]) -> int:
-    """Letters of the longest label."""
-    return max((len(label) for label in labels), default=0)
-
-
 def most_across(
     fields: dict, length: float, low: float, high: float, ceiling: int = 9, inside: bool = True
 ) -> int:
@@ -261,7 +285,7 @@ def most_across(
             labels = logarithmic_labels(ticks)
         else:
             labels = linear_labels(ticks, exponent_of(ticks))
-        if (8.3 * widest(labels) + 14.0) * len(ticks) <= length * 1.15:
+        if (8.3 * max(map(len, labels)) + 14.0) * len(ticks) <= length * 1.15:
             break
         most -= 1
     return most
