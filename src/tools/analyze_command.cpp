@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -11,11 +10,10 @@
 #include "reports/loop_report.h"
 #include "reports/rotor_systems.h"
 #include "reports/system_analysis.h"
-#include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "tools/shipped_scenes.h"
+#include "tools/scene_argument.h"
 #include "tools/simulation.h"
 
 namespace whirl_twin {
@@ -65,8 +63,8 @@ constexpr const char* kAnalyzeFooter =
     "  twin analyze demo --system rotor --json";
 
 struct AnalyzeRequest {
-  std::string scene;
-  std::optional<std::string> system, csv;
+  SceneArgument scene;
+  std::optional<std::string> system, csv, units;
   std::optional<double> speed;    // rad/s
   std::optional<std::string> at;  // s, as typed
   bool all_parameters = false;
@@ -78,10 +76,6 @@ struct AnalyzeRequest {
 /// The scene with every shaft at this speed [rad/s]. For a shaft on a motor it is part of the
 /// state.
 Scene withSpeed(Scene scene, const std::vector<std::size_t>& shown, double speed) {
-  constexpr double kFastest = 1.0e6;
-  if (!(std::fabs(speed) <= kFastest)) {
-    throw InputError("--speed: expected a shaft speed from -1e+06 to 1e+06 rad/s");
-  }
   bool any = false;
   for (const std::size_t i : shown) {
     const SystemSpec& system = scene.systems[i];
@@ -167,7 +161,7 @@ std::size_t modesAskedFor(const AnalyzeRequest& request) {
 int analyzeScene(const AnalyzeRequest& request) {
   requireCsvName(request.csv);
   const std::size_t modes = modesAskedFor(request);
-  Scene scene = readSceneFile(scenePath(request.scene));
+  Scene scene = sceneOf(request.scene);
   const auto systems = selectedSystems(scene, request.system);
   if (request.at) {
     scene = sceneAt(request);
@@ -183,6 +177,7 @@ int analyzeScene(const AnalyzeRequest& request) {
   tell(cost, request.insist);
   Json all;
   all["scene"] = scene.name;
+  const ShownUnits units = chosenUnits(request.units);
   std::string report;
   CsvTables csv;
   for (const std::size_t i : systems) {
@@ -193,7 +188,7 @@ int analyzeScene(const AnalyzeRequest& request) {
     all["systems"][analysis.name] = json(analysis);
     all["systems"][analysis.name]["methods"] = json(methods, analysis);
     append(csv, analysis.name, tables(analysis));
-    report += (report.empty() ? "" : "\n") + text(analysis) + text(methods, analysis);
+    report += (report.empty() ? "" : "\n") + text(analysis, units) + text(methods, analysis);
   }
   if (!scene.controllers.empty()) {
     const LoopReport loops = loopReport(scene);
@@ -214,7 +209,8 @@ void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "show this system only").type("NAME");
   command
-      .option("--speed", request->speed, "speed of the shafts [rad/s]; default: that at the start")
+      .quantity("--speed", request->speed, kSignedShaftSpeed, "speed of the shafts",
+                "that at the start")
       .type("W");
   command.option("--at", request->at, "simulated time since the start [s]; default: 0").type("S");
   command
@@ -226,8 +222,10 @@ void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
   command.flag("--parameters", request->all_parameters,
                "compute the instability points of the parameters also where that takes minutes");
   addCsvOption(command, request->csv);
+  addUnitsOption(command, request->units);
   addJsonOption(command, request->json);
   addInsistOption(command, request->insist);
+  command.takeUnits();
   command.footer(kAnalyzeFooter);
   command.callback([request, &status] { status = analyzeScene(*request); });
 }

@@ -1,4 +1,4 @@
-// Parsing of command-line arguments: scenes, names, and numbers with a unit.
+// Parsing of command-line arguments: channels, names, times.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,6 @@ void addChannelOption(const ProgramCommand& command, ChannelFilter& filter);
 
 bool selects(const ChannelFilter& filter, const std::string& channel);
 
-/// The scene argument of a command.
-void addSceneOption(const ProgramCommand& command, std::string& scene);
-
 /// --insist: allow a command that takes more than a day, or more memory than is free
 /// (reports/asked_cost.h).
 void addInsistOption(const ProgramCommand& command, bool& insist);
@@ -31,10 +28,10 @@ void addCsvOption(const ProgramCommand& command, std::optional<std::string>& csv
 
 inline constexpr std::int64_t kSecond = 1'000'000'000;  ///< [ns]
 
-/// Parses seconds and rounds to the nearest whole number of `unit`s [ns]; result in nanoseconds,
-/// from `low` to `high` [ns]. Exact: without intermediate binary fractions. A value that is not a
-/// whole number is reported on standard error with the value used instead. `option` names it there.
-/// Throws InputError.
+/// Parses seconds, or a number with a unit of time, and rounds to the nearest whole number of
+/// `unit`s [ns]; result in nanoseconds, from `low` to `high` [ns]. Exact: without intermediate
+/// binary fractions. A value that is not a whole number is reported on standard error with the
+/// value used instead. `option` names it there. Throws InputError.
 std::int64_t parseNanoseconds(const std::string& option, const std::string& text, std::int64_t low,
                               std::int64_t high, std::int64_t unit = 1);
 

@@ -80,8 +80,8 @@ void addCampbellCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("campbell", kCampbellDescription);
   const auto request = std::make_shared<CampbellCommandRequest>();
   addReportOptions(command, request->options, "the diagram");
-  command.option("--from", request->range.from, "rad/s; default: 0").type("W");
-  command.option("--to", request->range.to, "rad/s; default: 1.2 times the drive's highest speed")
+  command.quantity("--from", request->range.from, kShaftSpeed, "lowest speed", "0").type("W");
+  command.quantity("--to", request->range.to, kShaftSpeed, "highest speed", "1.2 times the drive's")
       .type("W");
   command.option("--points", request->range.points, "number of speeds; default: 200").type("N");
   command.option("--harmonic", request->harmonics, "multiples of the speed; default: 1").type("H");

@@ -5,11 +5,10 @@
 #include "reports/csv_table.h"
 #include "reports/drawings.h"
 #include "reports/loop_report.h"
-#include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "tools/shipped_scenes.h"
+#include "tools/scene_argument.h"
 
 namespace whirl_twin {
 
@@ -34,21 +33,17 @@ constexpr const char* kLoopFooter =
     "  twin loop my_rotor.yaml --speed 300 --json";
 
 struct LoopRequest {
-  std::string scene;
+  SceneArgument scene;
   std::optional<double> speed;
   std::optional<std::string> plot;
   bool json = false;
 };
 
 int loopsOf(const LoopRequest& request) {
-  constexpr double kFastest = 1.0e6;
-  if (request.speed && !(*request.speed >= -kFastest && *request.speed <= kFastest)) {
-    throw InputError("--speed: expected a shaft speed from -1e+06 to 1e+06 rad/s");
-  }
   requirePictureName(request.plot);
-  const Scene scene = readSceneFile(scenePath(request.scene));
+  const Scene scene = sceneOf(request.scene);
   if (scene.controllers.empty()) {
-    throw InputError(request.scene + ": controllers: expected at least one, found none");
+    throw InputError(request.scene.name + ": controllers: expected at least one, found none");
   }
   const LoopReport report = loopReport(scene, request.speed);
   Drawings drawings;
@@ -69,7 +64,8 @@ void addLoopCommand(const ProgramCommand& twin, int& status) {
   const auto request = std::make_shared<LoopRequest>();
   addSceneOption(command, request->scene);
   command
-      .option("--speed", request->speed, "speed of all shafts [rad/s]; default: that at the start")
+      .quantity("--speed", request->speed, kSignedShaftSpeed, "speed of all shafts",
+                "that at the start")
       .type("W");
   command.option("--plot", request->plot, "the diagrams, FILE.svg or FILE.png").type("FILE");
   addJsonOption(command, request->json);

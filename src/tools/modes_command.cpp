@@ -37,10 +37,6 @@ struct ModesRequest {
 };
 
 void requireModesUse(const ModesRequest& request) {
-  constexpr double kFastest = 1.0e6;
-  if (request.speed && !(*request.speed >= 0.0 && *request.speed <= kFastest)) {
-    throw InputError("--speed: expected a shaft speed from 0 to 1e+06 rad/s");
-  }
   if (request.limit && !request.measured) {
     throw InputError("--to: needs --measured LOG");
   }
@@ -82,13 +78,12 @@ void addModesCommand(const ProgramCommand& twin, int& status) {
   addReportOptions(command, request->options, "the lowest mode shapes");
   command.option("--measured", request->measured, "log of the running machine").type("LOG");
   command
-      .option("--speed", request->speed,
-              "speed of the shaft [rad/s]; default: the drive's highest; of a log the one kept for "
-              "longest")
+      .quantity("--speed", request->speed, kShaftSpeed, "speed of the shaft",
+                "the drive's highest; of a log the one kept for longest")
       .type("W");
   command
-      .option("--to", request->limit,
-              "highest frequency searched [rad/s]; default: slightly above the model's sixth")
+      .quantity("--to", request->limit, kWhirlFrequency, "highest frequency searched",
+                "slightly above the model's sixth")
       .type("W");
   command
       .option("--lcm-prefix", request->lcm_prefix, "prefix of the log's channels; default: TWIN_")

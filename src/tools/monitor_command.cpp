@@ -6,14 +6,13 @@
 #include "reports/asked_cost.h"
 #include "reports/drawings.h"
 #include "reports/monitored_log.h"
-#include "scene/scene_reader.h"
 #include "scene/signal_names.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
 #include "tools/report_options.h"
-#include "tools/shipped_scenes.h"
+#include "tools/scene_argument.h"
 #include "transport/channels.h"
 
 namespace whirl_twin {
@@ -34,8 +33,10 @@ constexpr const char* kMonitorFooter =
     "  twin simulate demo --output demo.lcmlog && twin monitor demo demo.lcmlog\n"
     "  twin monitor pump.yaml night.lcmlog --settings monitor.yaml --output night.html";
 
+constexpr OptionQuantity kInstant{"a time", "s", -1.0e9, 1.0e9};
+
 struct MonitorRequest {
-  std::string scene;
+  SceneArgument scene;
   std::string log;
   std::optional<std::string> settings;
   std::optional<std::string> output, csv;
@@ -65,7 +66,7 @@ AlarmSettings settingsOf(const BuiltScene& scene, const std::optional<std::strin
 int monitor(const MonitorRequest& request) {
   requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
-  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
+  const BuiltScene scene = build(sceneOf(request.scene));
   const AlarmSettings settings = settingsOf(scene, request.settings);
   AskedCost cost;  // for the speeds at the start
   for (const SharedSystem& system : scene.systems) {
@@ -112,8 +113,8 @@ void addMonitorCommand(const ProgramCommand& twin, int& status) {
               "prefix of the recorded twin's channels; default: TWIN_")
       .type("PREFIX");
   command
-      .option("--spectrum-at", request->spectrum_at,
-              "end of the window of the full spectrum [s, simulated]; default: the end of the log")
+      .quantity("--spectrum-at", request->spectrum_at, kInstant,
+                "end of the window of the full spectrum, simulated time", "the end of the log")
       .type("S");
   addCsvOption(command, request->csv);
   addJsonOption(command, request->json);

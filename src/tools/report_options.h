@@ -10,20 +10,24 @@
 #include "reports/drawings.h"
 #include "reports/output.h"
 #include "reports/rotor_systems.h"
+#include "reports/shown_units.h"
 #include "scene/built_scene.h"
 #include "tools/command.h"
+#include "tools/scene_argument.h"
 
 namespace whirl_twin {
 
 struct ReportOptions {
-  std::string scene;
-  std::optional<std::string> system, plot, csv;
+  SceneArgument scene;
+  std::optional<std::string> system, plot, csv, units;
   bool json = false;
 };
 
-/// SCENE, --system, --plot (`drawn`: what it draws), --csv, --json.
+/// SCENE, --set, --system, --plot (`drawn`: what it draws), --csv, --json, --units.
 void addReportOptions(const ProgramCommand& command, ReportOptions& options,
                       const std::string& drawn);
+/// --units alone.
+void addUnitsOption(const ProgramCommand& command, std::optional<std::string>& units);
 /// --json alone.
 void addJsonOption(const ProgramCommand& command, bool& json);
 
@@ -42,6 +46,7 @@ int reportRotors(const ReportOptions& options, const BuiltScene& scene,
                  const std::vector<RotorSystem>& rotors, const Make& make, const Draw& draw) {
   Json all;
   all["scene"] = scene.scene.name;
+  const ShownUnits units = chosenUnits(options.units);
   std::string words;
   CsvTables csv;
   Drawings drawings;
@@ -49,7 +54,7 @@ int reportRotors(const ReportOptions& options, const BuiltScene& scene,
     const auto report = make(rotor);
     all["systems"][rotor.name] = json(report);
     append(csv, rotor.name, tables(report));
-    words += (words.empty() ? "" : "\n") + text(report);
+    words += (words.empty() ? "" : "\n") + text(report, units);
     if (options.plot) {
       drawings.add(pictureName(*options.plot, rotor.name, rotors.size() > 1),
                    figureJson(draw(report)));

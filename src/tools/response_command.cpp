@@ -50,11 +50,10 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
       "response", "Unbalance response of the rotors of a scene over the shaft's speed.");
   const auto request = std::make_shared<ResponseRequest>();
   addReportOptions(command, request->options, "the picture");
-  command.option("--from", request->range.from, "rad/s; default: 0").type("W");
+  command.quantity("--from", request->range.from, kShaftSpeed, "lowest speed", "0").type("W");
   command
-      .option("--to", request->range.to,
-              "rad/s; default: 1.2 times the drive's highest speed; of a force slightly above the "
-              "sixth mode")
+      .quantity("--to", request->range.to, kShaftSpeed, "highest speed",
+                "1.2 times the drive's; of a force slightly above the sixth mode")
       .type("W");
   command.option("--points", request->range.points, "minimum number of speeds; default: 200")
       .type("N");
@@ -70,8 +69,8 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
       .needs(force)
       .type("NAME");
   command
-      .option("--speed", request->force.speed,
-              "speed of the shaft [rad/s]; default: the drive's highest")
+      .quantity("--speed", request->force.speed, kShaftSpeed, "speed of the shaft",
+                "the drive's highest")
       .needs(force)
       .type("W");
   addInsistOption(command, request->insist);
@@ -99,7 +98,9 @@ void addOrbitCommand(const ProgramCommand& twin, int& status) {
       twin.subcommand("orbit", "Unbalance orbits at one speed, at every station of the rotors.");
   const auto request = std::make_shared<ResponseRequest>();
   addReportOptions(command, request->options, "the picture");
-  command.option("--speed", request->speed, "speed of the shaft [rad/s]").required().type("W");
+  command.quantity("--speed", request->speed, kShaftSpeed, "speed of the shaft")
+      .required()
+      .type("W");
   command.footer(kOrbitFooter);
   command.callback([request, &status] {
     status = reportRotors(request->options, [&](const RotorSystem& system) {

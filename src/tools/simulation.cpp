@@ -34,7 +34,7 @@ Simulation::Simulation(const SimulationPlan& plan)
   // Before a writer opens its file, which an interrupted run removes.
   catchInterrupts();
   if (plan_.checkpoint || plan_.resume) {
-    checkpoint_.scene = sceneLines(YAML::LoadFile(plan_.path), twin_);
+    checkpoint_.scene = sceneLines(plan_.tree, twin_);
   }
   if (plan_.resume) {
     resumeFrom(*plan_.resume);

@@ -12,11 +12,9 @@
 #include "reports/rotor_systems.h"
 #include "scene/drive_reader.h"
 #include "scene/model_context.h"
-#include "scene/scene_reader.h"
 #include "scene/system_setup.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/shipped_scenes.h"
 #include "tools/simulation.h"
 
 namespace whirl_twin {
@@ -91,8 +89,10 @@ std::vector<SensorSpec> selectedSensors(const Scene& scene, const std::string& n
 
 SimulationPlan planSimulation(const SimulationRequest& request) {
   SimulationPlan plan;
-  plan.path = scenePath(request.scene);
-  plan.scene = readSceneFile(plan.path);
+  const SceneTree scene(request.scene);
+  plan.tree = scene.tree();
+  plan.source = scene.absoluteSource();
+  plan.scene = scene.scene();
   plan.checkpoint = request.checkpoint;
   plan.resume = request.resume;
   plan.systems = selectedSystems(plan.scene, request.system);

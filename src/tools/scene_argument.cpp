@@ -1,0 +1,63 @@
+#include "tools/scene_argument.h"
+
+#include <filesystem>
+
+#include "estimation/estimator_scene.h"
+#include "messages/input_error.h"
+#include "scene/scene_error.h"
+#include "scene/yaml_file.h"
+#include "tools/shipped_scenes.h"
+
+namespace whirl_twin {
+
+SceneTree::SceneTree(const SceneArgument& argument) {
+  const std::string path = scenePath(argument.name);
+  source_ = path == "-" || path == "/dev/stdin" ? kStandardInput : path;
+  try {
+    tree_ = readYamlFile(path, "a scene", "a step and at least one system");
+  } catch (const InputError& error) {
+    throw SceneError({error.what()});
+  }
+  changes_ = changeScene(tree_, argument.changes);
+}
+
+std::string SceneTree::absoluteSource() const {
+  return source_ == kStandardInput ? source_ : std::filesystem::absolute(source_).string();
+}
+
+Scene SceneTree::estimatorScene() const {
+  try {
+    return readEstimatorScene(tree_, source_);
+  } catch (const SceneError& error) {
+    std::vector<std::string> named;
+    for (const std::string& one : error.errors()) {
+      named.push_back(namedByChange(one, source_, changes_));
+    }
+    throw SceneError(named);
+  }
+}
+
+Scene sceneOf(const SceneArgument& argument) {
+  return SceneTree(argument).scene();
+}
+
+Option addSetOption(const ProgramCommand& command, SceneArgument& scene) {
+  command.takeUnits();
+  return command
+      .option("--set", scene.changes,
+              "replace a value of the scene before it is checked: rotor.damping=8, "
+              "\"rotor.discs[0].mass=500 g\", \"shaft.speed=800 rpm\"; may be repeated")
+      .type("PATH=VALUE")
+      .oneByOne();
+}
+
+void addSceneOption(const ProgramCommand& command, SceneArgument& scene) {
+  command
+      .option("SCENE", scene.name,
+              "scene file (YAML), the name of a scene of the package, or - for standard input")
+      .required()
+      .type("");
+  addSetOption(command, scene);
+}
+
+}  // namespace whirl_twin
