@@ -82,9 +82,10 @@ install(DIRECTORY ${PROJECT_BINARY_DIR}/docs/html DESTINATION share/doc/whirl_tw
 
 if(NOT WHIRL_TWIN_ROS)
   install(DIRECTORY config/scenes config/studies DESTINATION share/whirl_twin/config)
+  install(DIRECTORY web DESTINATION share/whirl_twin)
 endif()
 if(WHIRL_TWIN_ROS)
-  install(DIRECTORY launch config DESTINATION ${whirl_twin_share_dir})
+  install(DIRECTORY launch config web DESTINATION ${whirl_twin_share_dir})
   install(DIRECTORY msg DESTINATION ${whirl_twin_share_dir} FILES_MATCHING PATTERN *.lcm)
   install(DIRECTORY examples DESTINATION ${whirl_twin_share_dir} USE_SOURCE_PERMISSIONS
     FILES_MATCHING PATTERN *.py PATTERN *.cpp PATTERN *.yaml PATTERN __pycache__ EXCLUDE)

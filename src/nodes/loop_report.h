@@ -1,23 +1,13 @@
-// Loop statistics: timing of the loop as a message and as a diagnostics summary.
+// Diagnostics summary of the loop statistics.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
 #include "messages/loop_statistics.h"
 #include "nodes/rising_count.h"
-#include "realtime/fixed_rate_loop.h"
-#include "twin/live_twin.h"
-#include "twin/observer.h"
+#include "twin/loop_report.h"
 
 namespace whirl_twin {
-
-/// All fields except the stamp.
-state::LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
-                                     const RealtimeStatus& status, const LoopTiming& timing,
-                                     bool paused, std::uint64_t dropped);
-
-/// Adds the computing times of the systems and of the controllers in a step.
-void addStepTimes(const LiveTwin& live, state::LoopStatistics& loop);
 
 class LoopDiagnostics {
  public:

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/sketch_json.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -137,6 +139,17 @@ Json barJson(const Part& part) {
       {"from", spotJson(part.from)}, {"to", spotJson(part.to)}, {"radius", numberOf(part.radius)}};
 }
 
+/// Are all numbers of a sketch known, and small enough for lengths to be computed from them?
+bool drawable(const Json& json) {
+  constexpr double kFarthest = 1.0e100;  // m
+  if (json.is_structured()) {
+    return std::all_of(json.begin(), json.end(), drawable);
+  }
+  return !json.is_null() && !(json.is_number() && std::fabs(json.get<double>()) > kFarthest);
+}
+
+}  // namespace
+
 Json sketchJson(const Sketch& sketch) {
   const auto rod = [](const Sketch::Rod& part) {
     Json json = barJson(part);
@@ -178,17 +191,6 @@ Json sketchJson(const Sketch& sketch) {
           {"centre", spotJson(sketch.centre)},
           {"spatial", sketch.spatial}};
 }
-
-/// Are all numbers of a sketch known, and small enough for lengths to be computed from them?
-bool drawable(const Json& json) {
-  constexpr double kFarthest = 1.0e100;  // m
-  if (json.is_structured()) {
-    return std::all_of(json.begin(), json.end(), drawable);
-  }
-  return !json.is_null() && !(json.is_number() && std::fabs(json.get<double>()) > kFarthest);
-}
-
-}  // namespace
 
 Ink paler(const Ink& ink, double share) {
   const auto mixed = [share](double part) { return part + share * (1.0 - part); };

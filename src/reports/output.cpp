@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "messages/input_error.h"
 #include "messages/names.h"
@@ -15,6 +16,8 @@
 namespace whirl_twin {
 
 namespace {
+
+std::function<void(const std::string&)> message_sink;
 
 [[noreturn]] void throwNoOutput() {
   throw RunFailure(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
@@ -37,8 +40,16 @@ void printJson(const Json& json) {
 
 void complain(const std::string& message) {
   const std::string shown = printableLines(message);
+  if (message_sink) {
+    message_sink(shown);
+    return;
+  }
   std::fwrite(shown.data(), 1, shown.size(), stderr);
   std::fflush(stderr);
+}
+
+void setMessageSink(std::function<void(const std::string&)> sink) {
+  message_sink = std::move(sink);
 }
 
 void finishStandardOutput() {

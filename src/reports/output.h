@@ -1,19 +1,24 @@
 // Where results go: standard output, or a file that appears only when it is complete.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
+namespace nlohmann {
+
 /// Null where there is none.
 template <class Value>
-struct nlohmann::adl_serializer<std::optional<Value>> {
+struct adl_serializer<std::optional<Value>> {
   template <class AnyJson>
   static void to_json(AnyJson& json, const std::optional<Value>& value) {
     json = value ? AnyJson(*value) : AnyJson();
   }
 };
+
+}  // namespace nlohmann
 
 namespace whirl_twin {
 
@@ -49,6 +54,10 @@ void printJson(const Json& json);
 
 /// Prints a message on standard error likewise, whether it can be written or not.
 void complain(const std::string& message);
+
+/// Called with each message instead, from any thread, in a program whose standard error is not the
+/// user's. To be set before other threads run.
+void setMessageSink(std::function<void(const std::string&)> sink);
 
 /// Hands everything printed to the system: only then is a full device noticed. Throws RunFailure.
 void finishStandardOutput();

@@ -1,20 +1,14 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
-#include <utility>
 
-#include "messages/input_error.h"
-#include "reports/asked_cost.h"
-#include "reports/loop_report.h"
-#include "reports/rotor_systems.h"
-#include "reports/system_analysis.h"
+#include "requests/scene_requests.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/interrupt.h"
+#include "tools/progress_bar.h"
 #include "tools/report_options.h"
-#include "tools/scene_argument.h"
-#include "tools/simulation.h"
 
 namespace whirl_twin {
 
@@ -62,151 +56,31 @@ constexpr const char* kAnalyzeFooter =
     "  twin analyze oil_whip --speed 200\n"
     "  twin analyze demo --system rotor --json";
 
-struct AnalyzeRequest {
+struct AnalyzeOptions {
   SceneArgument scene;
-  std::optional<std::string> system, csv, units;
-  std::optional<double> speed;    // rad/s
-  std::optional<std::string> at;  // s, as typed
-  bool all_parameters = false;
-  std::string modes = std::to_string(kLowestModes);  // as typed
+  std::optional<std::string> csv, units;
   bool json = false;
-  bool insist = false;
+  AnalyzeRequest request;
 };
 
-/// The scene with every shaft at this speed [rad/s]. For a shaft on a motor it is part of the
-/// state.
-Scene withSpeed(Scene scene, const std::vector<std::size_t>& shown, double speed) {
-  bool any = false;
-  for (const std::size_t i : shown) {
-    const SystemSpec& system = scene.systems[i];
-    if (system.drive && scene.drives[scene.driveOf(system)].motor) {
-      throw InputError(
-          fmt::format("--speed: the speed of {} is not prescribed but follows from its motor; use "
-                      "--at for an instant",
-                      system.name));
-    }
-    any = any || system.drive || system.speed;
+int analyzeScene(AnalyzeOptions& options) {
+  requireCsvName(options.csv);
+  if (options.request.at) {
+    catchInterrupts();
   }
-  if (!any) {
-    throw InputError("--speed: needs a system with a shaft, found none");
-  }
-  for (DriveSpec& drive : scene.drives) {
-    if (!drive.motor) {
-      drive.speed = speed;
-      drive.profile.clear();
-    }
-  }
-  for (SystemSpec& system : scene.systems) {
-    if (system.speed) {
-      system.speed = speed;
-    }
-  }
-  return scene;
-}
-
-/// The scene in its state after so many seconds, its shafts kept at their speeds at that time.
-Scene sceneAt(const AnalyzeRequest& request) {
-  SimulationRequest run;
-  run.scene = request.scene;
-  run.duration = request.at;
-  run.insist = request.insist;
-  const SimulationPlan plan = planSimulation(run);
-  Simulation simulation(plan);
-  simulation.run(nullptr, true);
-  if (!simulation.sound()) {
-    throw RunFailure("--at: a system stopped before that time");
-  }
-  const Json systems = simulation.json()["systems"];
-  const BuiltScene start = build(plan.scene);
-  const std::int64_t elapsed = plan.steps * plan.scene.step;  // ns
-  Scene scene = plan.scene;
-  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
-    SystemSpec& system = scene.systems[i];
-    const std::vector<CoordinateInfo> coordinates = start.systems[i]->dynamics->coordinates();
-    for (std::size_t k = 0; k < coordinates.size(); ++k) {
-      system.q[k] = systems[system.name]["state"][coordinates[k].name];
-      system.v[k] = systems[system.name]["state"][coordinates[k].name + "_rate"];
-    }
-    if (system.drive) {
-      const ShaftMotion shaft =
-          start.driveOf(*start.systems[i]).at(static_cast<double>(elapsed) * 1.0e-9);
-      DriveSpec& drive = scene.drives[scene.driveOf(system)];
-      drive.speed = shaft.speed;
-      drive.angle = shaft.angle;
-      drive.profile.clear();
-    }
-  }
-  scene.time += elapsed;
-  return scene;
-}
-
-/// "all", or a number.
-std::size_t modesAskedFor(const AnalyzeRequest& request) {
-  if (request.modes == "all") {
-    return kAllModes;
-  }
-  constexpr std::size_t kMaxDigits = 6;
-  const bool number = !request.modes.empty() && request.modes.size() <= kMaxDigits &&
-                      std::all_of(request.modes.begin(), request.modes.end(),
-                                  [](char c) { return c >= '0' && c <= '9'; });
-  const std::size_t modes = number ? std::stoul(request.modes) : 0;
-  if (modes == 0) {
-    throw InputError(
-        fmt::format("--modes: expected the number of lowest modes, 1 or more, or all, found {}",
-                    request.modes));
-  }
-  return modes;
-}
-
-int analyzeScene(const AnalyzeRequest& request) {
-  requireCsvName(request.csv);
-  const std::size_t modes = modesAskedFor(request);
-  Scene scene = sceneOf(request.scene);
-  const auto systems = selectedSystems(scene, request.system);
-  if (request.at) {
-    scene = sceneAt(request);
-  }
-  if (request.speed) {
-    scene = withSpeed(std::move(scene), systems, *request.speed);
-  }
-  const BuiltScene built = build(scene);
-  AskedCost cost;
-  for (const std::size_t i : systems) {
-    cost += costOfAnalysis(scene.systems[i].name, built.systems[i]->dynamics->dof(), modes);
-  }
-  tell(cost, request.insist);
-  Json all;
-  all["scene"] = scene.name;
-  const ShownUnits units = chosenUnits(request.units);
-  std::string report;
-  CsvTables csv;
-  for (const std::size_t i : systems) {
-    const SystemAnalysis analysis = analyze(
-        built, i, request.all_parameters ? ParameterSearch::kOfAll : ParameterSearch::kWhereQuick,
-        modes);
-    const MethodAnalysis methods = analyzeMethods(*built.systems[i], analysis);
-    all["systems"][analysis.name] = json(analysis);
-    all["systems"][analysis.name]["methods"] = json(methods, analysis);
-    append(csv, analysis.name, tables(analysis));
-    report += (report.empty() ? "" : "\n") + text(analysis, units) + text(methods, analysis);
-  }
-  if (!scene.controllers.empty()) {
-    const LoopReport loops = loopReport(scene);
-    all["controllers"] = json(loops)["controllers"];
-    report += "\n" + text(loops);
-  }
-  if (request.csv) {
-    writeCsv(*request.csv, csv);
-  }
-  return printReport(request.json, all, report);
+  options.request.units = chosenUnits(options.units);
+  TerminalProgress progress(true);
+  const Document document = analyzeDocument(sceneOf(options.scene), options.request, progress);
+  return printDocument(document, options.json, options.csv);
 }
 
 }  // namespace
 
 void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("analyze", kAnalyzeDescription);
-  const auto request = std::make_shared<AnalyzeRequest>();
-  addSceneOption(command, request->scene);
+  const auto options = std::make_shared<AnalyzeOptions>();
+  AnalyzeRequest* const request = &options->request;
+  addSceneOption(command, options->scene);
   command.option("--system", request->system, "show this system only").type("NAME");
   command
       .quantity("--speed", request->speed, kSignedShaftSpeed, "speed of the shafts",
@@ -221,13 +95,13 @@ void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
       .type("N");
   command.flag("--parameters", request->all_parameters,
                "compute the instability points of the parameters also where that takes minutes");
-  addCsvOption(command, request->csv);
-  addUnitsOption(command, request->units);
-  addJsonOption(command, request->json);
+  addCsvOption(command, options->csv);
+  addUnitsOption(command, options->units);
+  addJsonOption(command, options->json);
   addInsistOption(command, request->insist);
   command.takeUnits();
   command.footer(kAnalyzeFooter);
-  command.callback([request, &status] { status = analyzeScene(*request); });
+  command.callback([options, &status] { status = analyzeScene(*options); });
 }
 
 }  // namespace whirl_twin

@@ -10,11 +10,11 @@
 #include "reports/report_values.h"
 #include "reports/rotor_record.h"
 #include "reports/unbalance_report.h"
+#include "requests/scene_argument.h"
 #include "tools/arguments.h"
 #include "tools/balancing_runs.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "tools/scene_argument.h"
 
 namespace whirl_twin {
 

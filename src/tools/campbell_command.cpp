@@ -1,10 +1,6 @@
-#include <cstdint>
 #include <memory>
-#include <optional>
 
-#include "messages/input_error.h"
-#include "reports/asked_cost.h"
-#include "reports/campbell_report.h"
+#include "requests/rotor_requests.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
@@ -28,58 +24,27 @@ constexpr const char* kCampbellFooter =
     "  twin campbell demo --to 120 --plot campbell.svg\n"
     "  twin campbell demo --system rotor --harmonic 1 2 --csv campbell.csv";
 
-struct CampbellCommandRequest {
+struct CampbellOptions {
   ReportOptions options;
-  SpeedRangeOptions range;
-  std::vector<double> harmonics{1.0};
-  int modes = 12;
-  bool insist = false;
+  CampbellReportRequest request;
 };
 
-void requireNumbers(const CampbellCommandRequest& request) {
-  for (const double harmonic : request.harmonics) {
-    if (!(harmonic > 0.0 && harmonic <= 100.0)) {
-      throw InputError("--harmonic: expected multiples of the speed above 0 and up to 100, found " +
-                       std::to_string(harmonic));
-    }
-  }
-  if (request.modes < 1 || request.modes > 1000) {
-    throw InputError("--modes: expected from 1 to 1000, found " + std::to_string(request.modes));
-  }
-}
-
-int campbellOf(const CampbellCommandRequest& request) {
-  requireNumbers(request);
-  const BuiltScene scene = sceneOf(request.options);
-  const auto rotors = rotorSystems(scene, request.options.system);
-  AskedCost cost;
-  for (const RotorSystem& rotor : rotors) {
-    cost += costOfCampbell(rotor.name, rotor.dynamics->dof(), request.range.points);
-  }
-  tell(cost, request.insist);
-  ProgressBar bar(cost.cause, static_cast<std::int64_t>(rotors.size()) * request.range.points,
-                  false, request.insist);
-  std::int64_t before = 0;  // speeds of the rotors that are done
-  const auto report = [&](const RotorSystem& rotor) {
-    CampbellReport one = campbellReport(
-        rotor, request.range.of(rotor), request.harmonics, static_cast<std::size_t>(request.modes),
-        [&](std::size_t done) { bar.show(before + static_cast<std::int64_t>(done)); });
-    before += request.range.points;
-    if (before == static_cast<std::int64_t>(rotors.size()) * request.range.points) {
-      bar.clear();
-    }
-    return one;
-  };
-  return reportRotors(request.options, scene, rotors, report,
-                      [](const CampbellReport& one) { return figure(one); });
+int campbellOf(CampbellOptions& given) {
+  given.request.system = given.options.system;
+  const Scene scene = sceneOf(given.options);
+  TerminalProgress progress(false);
+  return printDocument(
+      campbellDocument(scene, given.request, progress, chosenUnits(given.options.units)),
+      given.options);
 }
 
 }  // namespace
 
 void addCampbellCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("campbell", kCampbellDescription);
-  const auto request = std::make_shared<CampbellCommandRequest>();
-  addReportOptions(command, request->options, "the diagram");
+  const auto given = std::make_shared<CampbellOptions>();
+  CampbellReportRequest* const request = &given->request;
+  addReportOptions(command, given->options, "the diagram");
   command.quantity("--from", request->range.from, kShaftSpeed, "lowest speed", "0").type("W");
   command.quantity("--to", request->range.to, kShaftSpeed, "highest speed", "1.2 times the drive's")
       .type("W");
@@ -88,7 +53,7 @@ void addCampbellCommand(const ProgramCommand& twin, int& status) {
   command.option("--modes", request->modes, "number of lowest modes; default: 12").type("N");
   addInsistOption(command, request->insist);
   command.footer(kCampbellFooter);
-  command.callback([request, &status] { status = campbellOf(*request); });
+  command.callback([given, &status] { status = campbellOf(*given); });
 }
 
 }  // namespace whirl_twin

@@ -6,7 +6,6 @@
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "tools/scene_argument.h"
 
 namespace whirl_twin {
 

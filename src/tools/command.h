@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/option_quantity.h"
+#include "requests/option_quantity.h"
 
 namespace CLI {
 class App;

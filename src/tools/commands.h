@@ -22,6 +22,7 @@ void addUnitsCommand(const ProgramCommand& twin, int& status);
 void addNewCommand(const ProgramCommand& twin, int& status);
 void addImportCommand(const ProgramCommand& twin, int& status);
 void addSimulateCommand(const ProgramCommand& twin, int& status);
+void addServeCommand(const ProgramCommand& twin, int& status);
 void addPlotCommand(const ProgramCommand& twin, int& status);
 void addAnalyzeCommand(const ProgramCommand& twin, int& status);
 void addCampbellCommand(const ProgramCommand& twin, int& status);

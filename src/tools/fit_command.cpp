@@ -1,31 +1,14 @@
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 
-#include "estimation/fit_study_reader.h"
-#include "estimation/shooting_fit.h"
-#include "messages/input_error.h"
 #include "reports/csv_table.h"
-#include "reports/drawings.h"
-#include "reports/fit_report.h"
-#include "reports/measured_file.h"
-#include "scene/scene_reader.h"
+#include "requests/study_requests.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
 #include "tools/report_options.h"
-#include "transport/channels.h"
 
 namespace whirl_twin {
-
-#ifndef WHIRL_TWIN_FIT
-ShootingFit fitByShooting(const FitStudy&, const FitProgress&) {
-  throw RunFailure("fit: built without Ceres: run scripts/setup --fit, then build again");
-}
-#endif
 
 namespace {
 
@@ -55,89 +38,32 @@ constexpr const char* kFitFooter =
     "values,\nand a remark reports it. Exit status: 0 fitted; 1 no fit was found; 2 a study, scene "
     "or run that\ncannot be used.";
 
-struct FitRequest {
+struct FitOptions {
   std::string study;
-  std::optional<std::string> output;
   std::optional<std::string> plot, csv;
-  std::string lcm_prefix = kDefaultLcmPrefix;
-  bool validate_only = false;
-  bool check = false;
   bool json = false;
-  bool insist = false;
+  FitRequest request;
 };
 
-std::string pictureOf(const std::string& plot, const FitStudy& study, std::size_t run) {
-  const std::string name = std::filesystem::path(study.runs[run].file).stem().string();
-  return pictureName(plot, name, study.runs.size() > 1);
-}
-
-void writeScene(const FitStudy& study, const ShootingFit& fit, const std::string& path) {
-  PendingFile file(path);
-  std::ofstream out(file.path(), std::ios::binary);
-  out << fittedScene(study, fit, std::filesystem::path(path).parent_path().string()) << std::flush;
-  if (!out) {
-    throw RunFailure(path + ": cannot be written");
-  }
-  out.close();
-  readSceneFile(file.path());
-  file.complete();
-}
-
-int fit(const FitRequest& request) {
-  requirePictureName(request.plot);
-  requireLcmPrefix(request.lcm_prefix);
-  requireCsvName(request.csv);
-  const FitStudy study =
-      readFitStudy(request.study, request.validate_only || request.check,
-                   [&](const std::string& path, const std::string& time,
-                       const std::vector<std::string>& columns) {
-                     return readRecordedRun(path, request.lcm_prefix, time, columns);
-                   });
-  if (request.check) {
-    if (request.json) {
-      printJson(checkJson(study));
-    } else {
-      printText(checkText(study));
-    }
-    return kDone;
-  }
-  std::optional<ProgressBar> bar;
-  const ShootingFit fit = fitByShooting(study, [&](int done, int of) {
-    if (!bar) {
-      bar.emplace(fmt::format("at most {} iterations", of), of, request.json, request.insist);
-    }
-    bar->show(done);
-  });
-  bar.reset();
-  if (request.output) {
-    writeScene(study, fit, *request.output);
-  }
-  Drawings drawings;
-  for (std::size_t run = 0; request.plot && run < study.runs.size(); ++run) {
-    drawings.add(pictureOf(*request.plot, study, run), figureJson(figure(study, fit, run)));
-  }
-  drawings.write();
-  if (request.csv) {
-    writeCsv(*request.csv, tables(fit));
-  }
-  if (request.json) {
-    printJson(json(study, fit));
-  } else {
-    printText(text(study, fit));
-  }
-  return fit.converged ? kDone : kFailed;
+int fit(const FitOptions& options) {
+  requirePictureName(options.plot);
+  requireCsvName(options.csv);
+  TerminalProgress progress(options.json);
+  return printDocument(fitDocument(options.study, options.request, progress), options.json,
+                       options.csv, options.plot);
 }
 
 }  // namespace
 
 void addFitCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("fit", kFitDescription);
-  const auto request = std::make_shared<FitRequest>();
-  command.option("STUDY", request->study, "the study (YAML)").required().type("");
+  const auto options = std::make_shared<FitOptions>();
+  FitRequest* const request = &options->request;
+  command.option("STUDY", options->study, "the study (YAML)").required().type("");
   command.option("--output", request->output, "write the scene with the fitted values")
       .type("FILE.yaml");
   command
-      .option("--plot", request->plot,
+      .option("--plot", options->plot,
               "draw each run and its prediction: FILE.svg or FILE.png, of several runs "
               "FILE_RUN")
       .type("FILE");
@@ -150,11 +76,11 @@ void addFitCommand(const ProgramCommand& twin, int& status) {
                "fit only the initial states of the windows");
   command.flag("--check", request->check,
                "fit nothing: report anomalies of the runs, with their rows");
-  addCsvOption(command, request->csv);
-  addJsonOption(command, request->json);
+  addCsvOption(command, options->csv);
+  addJsonOption(command, options->json);
   addInsistOption(command, request->insist);
   command.footer(kFitFooter);
-  command.callback([request, &status] { status = fit(*request); });
+  command.callback([options, &status] { status = fit(*options); });
 }
 
 }  // namespace whirl_twin

@@ -7,12 +7,12 @@
 #include "estimation/estimator_scene.h"
 #include "estimation/follow_settings.h"
 #include "reports/followed_log.h"
+#include "requests/scene_argument.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
 #include "tools/report_options.h"
-#include "tools/scene_argument.h"
 #include "transport/channels.h"
 #include "twin/scene_lines.h"
 

@@ -1,14 +1,11 @@
 #include <memory>
 #include <optional>
 
-#include "messages/input_error.h"
 #include "reports/csv_table.h"
-#include "reports/drawings.h"
-#include "reports/loop_report.h"
+#include "requests/scene_requests.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "tools/scene_argument.h"
 
 namespace whirl_twin {
 
@@ -32,36 +29,24 @@ constexpr const char* kLoopFooter =
     "  twin loop my_rotor.yaml --plot loop.svg\n"
     "  twin loop my_rotor.yaml --speed 300 --json";
 
-struct LoopRequest {
+struct LoopOptions {
   SceneArgument scene;
   std::optional<double> speed;
   std::optional<std::string> plot;
   bool json = false;
 };
 
-int loopsOf(const LoopRequest& request) {
-  requirePictureName(request.plot);
-  const Scene scene = sceneOf(request.scene);
-  if (scene.controllers.empty()) {
-    throw InputError(request.scene.name + ": controllers: expected at least one, found none");
-  }
-  const LoopReport report = loopReport(scene, request.speed);
-  Drawings drawings;
-  for (const LoopedController& controller : report.controllers) {
-    if (request.plot && !controller.responses.empty()) {
-      drawings.add(pictureName(*request.plot, controller.spec->name, report.controllers.size() > 1),
-                   figureJson(figure(controller)));
-    }
-  }
-  drawings.write();
-  return printReport(request.json, json(report), text(report));
+int loopsOf(const LoopOptions& options) {
+  requirePictureName(options.plot);
+  const Document document = loopDocument(sceneOf(options.scene), options.speed);
+  return printDocument(document, options.json, std::nullopt, options.plot);
 }
 
 }  // namespace
 
 void addLoopCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("loop", kLoopDescription);
-  const auto request = std::make_shared<LoopRequest>();
+  const auto request = std::make_shared<LoopOptions>();
   addSceneOption(command, request->scene);
   command
       .quantity("--speed", request->speed, kSignedShaftSpeed, "speed of all shafts",

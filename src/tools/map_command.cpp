@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "reports/critical_map_report.h"
+#include "requests/rotor_requests.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
 
@@ -47,9 +47,9 @@ void addMapCommand(const ProgramCommand& twin, int& status) {
   command.option("--bearing", request->map.nodes, "nodes whose bearings are varied").type("NODE");
   command.footer(kMapFooter);
   command.callback([request, &status] {
-    status = reportRotors(request->options, [&](const RotorSystem& rotor) {
-      return criticalMapReport(rotor, request->map);
-    });
+    status = printDocument(mapDocument(sceneOf(request->options), request->options.system,
+                                       request->map, chosenUnits(request->options.units)),
+                           request->options);
   });
 }
 

@@ -1,10 +1,7 @@
 #include <memory>
-#include <optional>
 
 #include "messages/input_error.h"
-#include "reports/csv_table.h"
-#include "reports/modes_report.h"
-#include "reports/rotor_record.h"
+#include "requests/rotor_requests.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
 
@@ -28,54 +25,29 @@ constexpr const char* kModesFooter =
     "  twin modes balancing --speed 70 --plot modes.svg\n"
     "  twin modes balancing --measured run.lcmlog --json";
 
-struct ModesRequest {
+struct ModesOptions {
   ReportOptions options;
-  std::optional<std::string> measured;
-  std::optional<double> speed, limit;
-  int modes = 6;
-  std::string lcm_prefix = kDefaultLcmPrefix;
+  ModesRequest request;
 };
 
-void requireModesUse(const ModesRequest& request) {
-  if (request.limit && !request.measured) {
-    throw InputError("--to: needs --measured LOG");
-  }
-  if (request.options.plot && request.measured) {
+int showModes(ModesOptions& given) {
+  if (given.options.plot && given.request.measured) {
     throw InputError(
         "--plot: draws the mode shapes of the model; must not be given with --measured");
   }
-  if (request.modes < 1 || request.modes > 100) {
-    throw InputError("--modes: expected from 1 to 100, found " + std::to_string(request.modes));
-  }
-  requireLcmPrefix(request.lcm_prefix);
-}
-
-int showModes(const ModesRequest& request) {
-  requireModesUse(request);
-  const BuiltScene scene = sceneOf(request.options);
-  const auto rotors = rotorSystems(scene, request.options.system);
-  if (request.measured && rotors.size() > 1) {
-    throw InputError("--system: missing; must name the rotor that the log belongs to");
-  }
-  const auto report = [&](const RotorSystem& rotor) {
-    return request.measured
-               ? modesReport(rotor,
-                             RotorRecord(scene, rotor, *request.measured, request.lcm_prefix,
-                                         ProbesRead::kAtSameInstants),
-                             request.speed, request.limit)
-               : modesReport(rotor, request.speed.value_or(rotor.highest_speed));
-  };
-  return reportRotors(request.options, scene, rotors, report, [&](const ModesReport& modes) {
-    return figure(modes, static_cast<std::size_t>(request.modes));
-  });
+  given.request.system = given.options.system;
+  return printDocument(
+      modesDocument(sceneOf(given.options), given.request, chosenUnits(given.options.units)),
+      given.options);
 }
 
 }  // namespace
 
 void addModesCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("modes", kModesDescription);
-  const auto request = std::make_shared<ModesRequest>();
-  addReportOptions(command, request->options, "the lowest mode shapes");
+  const auto given = std::make_shared<ModesOptions>();
+  ModesRequest* const request = &given->request;
+  addReportOptions(command, given->options, "the lowest mode shapes");
   command.option("--measured", request->measured, "log of the running machine").type("LOG");
   command
       .quantity("--speed", request->speed, kShaftSpeed, "speed of the shaft",
@@ -90,7 +62,7 @@ void addModesCommand(const ProgramCommand& twin, int& status) {
       .type("PREFIX");
   command.option("--modes", request->modes, "number of modes drawn; default: 6").type("N");
   command.footer(kModesFooter);
-  command.callback([request, &status] { status = showModes(*request); });
+  command.callback([given, &status] { status = showModes(*given); });
 }
 
 }  // namespace whirl_twin

@@ -2,17 +2,14 @@
 #include <memory>
 #include <optional>
 
-#include "monitoring/alarm_settings_reader.h"
 #include "reports/asked_cost.h"
 #include "reports/drawings.h"
 #include "reports/monitored_log.h"
-#include "scene/signal_names.h"
-#include "scene/yaml_file.h"
+#include "tools/alarm_settings_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
 #include "tools/report_options.h"
-#include "tools/scene_argument.h"
 #include "transport/channels.h"
 
 namespace whirl_twin {
@@ -46,28 +43,11 @@ struct MonitorRequest {
   bool insist = false;
 };
 
-AlarmSettings settingsOf(const BuiltScene& scene, const std::optional<std::string>& path) {
-  if (!path) {
-    return {};
-  }
-  std::vector<std::string> rotors;
-  std::vector<std::string> stations;
-  for (const SharedSystem& system : scene.systems) {
-    if (system->dynamics->isRotor()) {
-      rotors.push_back(system->spec.name);
-      const auto names = publishedStations(system->spec.name, *system->dynamics);
-      stations.insert(stations.end(), names.begin() + 1, names.end());
-    }
-  }
-  return readAlarmSettings(readYamlFile(*path, "settings of the monitor", "alarms"), *path, rotors,
-                           {}, stations);
-}
-
 int monitor(const MonitorRequest& request) {
   requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
   const BuiltScene scene = build(sceneOf(request.scene));
-  const AlarmSettings settings = settingsOf(scene, request.settings);
+  const AlarmSettings settings = alarmSettingsOf(scene, request.settings);
   AskedCost cost;  // for the speeds at the start
   for (const SharedSystem& system : scene.systems) {
     cost += costOfAnalysis(system->spec.name, system->dynamics->dof());

@@ -10,9 +10,9 @@
 #include "models/model_registry.h"
 #include "reports/model_text.h"
 #include "reports/output.h"
+#include "requests/shipped_scenes.h"
 #include "scene/yaml_file.h"
 #include "tools/commands.h"
-#include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
 

@@ -10,6 +10,7 @@
 
 #include "messages/input_error.h"
 #include "reports/output.h"
+#include "requests/durations.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"

@@ -10,11 +10,13 @@
 #include "reports/output.h"
 #include "reports/study_report.h"
 #include "reports/system_plots.h"
+#include "requests/simulation.h"
 #include "scene/yaml_file.h"
 #include "studies/study_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/simulation.h"
+#include "tools/interrupt.h"
+#include "tools/progress_bar.h"
 
 namespace whirl_twin {
 
@@ -162,10 +164,12 @@ int plot(const PlotRequest& request) {
   SimulationPlan plan = planSimulation(request.run);
   const OutputFolder made(request.folder);
   plan.stride = 1 + plan.steps / kMaxSamples;
+  catchInterrupts();
   Simulation simulation(plan);
   const std::int64_t samples = plan.steps / plan.stride;
   PlotHistoryWriter writer(simulation.twin(), plan.systems, 1 + samples / kEnsembleSamples);
-  simulation.run(&writer, false);
+  TerminalProgress progress(false);
+  simulation.run(&writer, progress);
 
   Drawings drawings;
   for (std::size_t i = 0; i < plan.systems.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reports/asked_cost.h"
+#include "tools/interrupt.h"
 
 namespace whirl_twin {
 
@@ -69,6 +70,24 @@ void ProgressBar::clear() {
     putOnTerminal("\r\033[K");
     drawn_ = false;
   }
+}
+
+void TerminalProgress::begin(const std::string& asked, std::int64_t steps, bool insist) {
+  bar_.emplace(asked, steps, results_on_standard_output_, insist);
+}
+
+void TerminalProgress::clear() {
+  if (bar_) {
+    bar_->clear();
+  }
+}
+
+bool TerminalProgress::interrupted() {
+  return whirl_twin::interrupted();
+}
+
+std::atomic<bool>& TerminalProgress::stop() {
+  return catchInterrupts();
 }
 
 }  // namespace whirl_twin

@@ -5,7 +5,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
+
+#include "requests/work_progress.h"
 
 namespace whirl_twin {
 
@@ -36,6 +39,23 @@ class ProgressBar {
   bool judged_ = false;
   double start_;  ///< [s], of the processor
   std::chrono::steady_clock::time_point next_{};
+};
+
+/// A bar, and SIGINT and SIGTERM where the command catches them (tools/interrupt.h).
+class TerminalProgress final : public WorkProgress {
+ public:
+  explicit TerminalProgress(bool results_on_standard_output)
+      : results_on_standard_output_(results_on_standard_output) {}
+
+  void begin(const std::string& asked, std::int64_t steps, bool insist) override;
+  std::int64_t show(std::int64_t done) override { return bar_ ? bar_->show(done) : 1; }
+  void clear() override;
+  bool interrupted() override;
+  std::atomic<bool>& stop() override;
+
+ private:
+  bool results_on_standard_output_;
+  std::optional<ProgressBar> bar_;
 };
 
 }  // namespace whirl_twin

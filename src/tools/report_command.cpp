@@ -13,7 +13,6 @@
 #include "reports/rotor_report.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/scene_argument.h"
 #include "tools/stage_options.h"
 
 namespace whirl_twin {

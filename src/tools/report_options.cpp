@@ -36,18 +36,31 @@ int printReport(bool as_json, const Json& json, const std::string& text) {
   return kDone;
 }
 
-int printReport(const ReportOptions& options, const Json& json, const std::string& text,
-                const CsvTables& tables) {
-  if (options.csv) {
-    writeCsv(*options.csv, tables);
+int printDocument(const Document& document, bool as_json, const std::optional<std::string>& csv,
+                  const std::optional<std::string>& plot) {
+  if (csv) {
+    writeCsv(*csv, document.tables);
   }
-  return printReport(options.json, json, text);
+  Drawings files;
+  for (const Drawing& drawing : plot ? document.drawings : std::vector<Drawing>{}) {
+    files.add(pictureName(*plot, drawing.name, document.drawings.size() > 1), drawing.draw());
+  }
+  files.write();
+  printReport(as_json, document.json, document.text);
+  if (!document.failure.empty()) {  // for users who do not read the report
+    complain("twin: " + document.failure + "\n");
+  }
+  return document.done ? kDone : kFailed;
 }
 
-BuiltScene sceneOf(const ReportOptions& options) {
+int printDocument(const Document& document, const ReportOptions& options) {
+  return printDocument(document, options.json, options.csv, options.plot);
+}
+
+Scene sceneOf(const ReportOptions& options) {
   requirePictureName(options.plot);
   requireCsvName(options.csv);
-  return build(sceneOf(options.scene));
+  return sceneOf(options.scene);
 }
 
 }  // namespace whirl_twin

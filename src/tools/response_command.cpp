@@ -1,9 +1,7 @@
 // `twin response` and `twin orbit`.
 #include <memory>
-#include <optional>
 
-#include "reports/asked_cost.h"
-#include "reports/response_report.h"
+#include "requests/rotor_requests.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
@@ -34,13 +32,11 @@ constexpr const char* kOrbitFooter =
     "Example:\n"
     "  twin orbit demo --speed 55 --plot orbit.svg";
 
-struct ResponseRequest {
+struct ResponseOptions {
   ReportOptions options;
-  std::optional<std::string> station;
-  SpeedRangeOptions range;
-  double speed = 0.0;
+  ResponseRequest request;
   ForcedRequest force;
-  bool insist = false;
+  double speed = 0.0;  // rad/s, of orbits
 };
 
 }  // namespace
@@ -48,8 +44,10 @@ struct ResponseRequest {
 void addResponseCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand(
       "response", "Unbalance response of the rotors of a scene over the shaft's speed.");
-  const auto request = std::make_shared<ResponseRequest>();
-  addReportOptions(command, request->options, "the picture");
+  const auto given = std::make_shared<ResponseOptions>();
+  ResponseRequest* const request = &given->request;
+  ForcedRequest* const forced = &given->force;
+  addReportOptions(command, given->options, "the picture");
   command.quantity("--from", request->range.from, kShaftSpeed, "lowest speed", "0").type("W");
   command
       .quantity("--to", request->range.to, kShaftSpeed, "highest speed",
@@ -58,54 +56,43 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
   command.option("--points", request->range.points, "minimum number of speeds; default: 200")
       .type("N");
   command.option("--station", request->station, "only this station of the shaft").type("NAME");
-  const Option force = command
-                           .option("--force", request->force.force,
-                                   "station of a harmonic force in a fixed direction")
-                           .type("NAME");
-  command.option("--along", request->force.along, "direction of the force, x or y; default: x")
+  const Option force =
+      command.option("--force", forced->force, "station of a harmonic force in a fixed direction")
+          .type("NAME");
+  command.option("--along", forced->along, "direction of the force, x or y; default: x")
       .needs(force)
       .type("AXIS");
-  command.option("--at", request->force.at, "stations of the response; default: that of the force")
+  command.option("--at", forced->at, "stations of the response; default: that of the force")
       .needs(force)
       .type("NAME");
   command
-      .quantity("--speed", request->force.speed, kShaftSpeed, "speed of the shaft",
-                "the drive's highest")
+      .quantity("--speed", forced->speed, kShaftSpeed, "speed of the shaft", "the drive's highest")
       .needs(force)
       .type("W");
   addInsistOption(command, request->insist);
   command.footer(kResponseFooter);
-  command.callback([request, force, &status] {
+  command.callback([given, force, &status] {
+    given->request.system = given->options.system;
     if (force.given()) {
-      request->force.from = request->range.from;
-      request->force.to = request->range.to;
-      request->force.points = request->range.points;
-      status = reportRotors(request->options, [&](const RotorSystem& system) {
-        return forcedReport(system, request->force);
-      });
-      return;
+      given->request.force = given->force;
     }
-    status = reportRotors(request->options, [&](const RotorSystem& system) {
-      tell(costOfResponse(system.name, system.dynamics->dof(), request->range.points),
-           request->insist);
-      return responseReport(system, request->range.of(system), request->station);
-    });
+    status = printDocument(responseDocument(sceneOf(given->options), given->request,
+                                            chosenUnits(given->options.units)),
+                           given->options);
   });
 }
 
 void addOrbitCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command =
       twin.subcommand("orbit", "Unbalance orbits at one speed, at every station of the rotors.");
-  const auto request = std::make_shared<ResponseRequest>();
-  addReportOptions(command, request->options, "the picture");
-  command.quantity("--speed", request->speed, kShaftSpeed, "speed of the shaft")
-      .required()
-      .type("W");
+  const auto given = std::make_shared<ResponseOptions>();
+  addReportOptions(command, given->options, "the picture");
+  command.quantity("--speed", given->speed, kShaftSpeed, "speed of the shaft").required().type("W");
   command.footer(kOrbitFooter);
-  command.callback([request, &status] {
-    status = reportRotors(request->options, [&](const RotorSystem& system) {
-      return orbitReport(system, request->speed);
-    });
+  command.callback([given, &status] {
+    status = printDocument(orbitDocument(sceneOf(given->options), given->options.system,
+                                         given->speed, chosenUnits(given->options.units)),
+                           given->options);
   });
 }
 

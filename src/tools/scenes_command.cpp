@@ -8,10 +8,10 @@
 #include "messages/input_error.h"
 #include "messages/names.h"
 #include "reports/output.h"
+#include "requests/shipped_scenes.h"
 #include "scene/scene_reader.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
-#include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
 

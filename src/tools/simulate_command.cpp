@@ -7,10 +7,12 @@
 #include "messages/input_error.h"
 #include "reports/output.h"
 #include "reports/sample_writer.h"
+#include "requests/simulation.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/simulation.h"
+#include "tools/interrupt.h"
+#include "tools/progress_bar.h"
 #include "twin/scene_lines.h"
 
 namespace whirl_twin {
@@ -85,18 +87,6 @@ void requireOneEnsemble(const SimulationPlan& plan) {
   }
 }
 
-/// Warns that a run without the processes of a scene's external controllers differs.
-void sayWhatIsMissing(const Scene& scene) {
-  for (const ControllerSpec& controller : scene.controllers) {
-    if (controller.type == "external") {
-      complain(
-          fmt::format("twin: controllers.{}: runs in another process and acts only live; here its "
-                      "output is 0\n",
-                      controller.name));
-    }
-  }
-}
-
 int simulate(const SimulationRequest& request) {
   if (request.output) {
     extensionOf(*request.output);
@@ -114,13 +104,15 @@ int simulate(const SimulationRequest& request) {
     throw InputError("--measure: must not be given with --resume");
   }
   const SimulationPlan plan = planSimulation(request);
-  sayWhatIsMissing(plan.scene);
+  warnOfExternalControllers(plan.scene);
   if (request.members) {
     requireOneEnsemble(plan);
   }
+  catchInterrupts();  // before a writer opens its file, which an interrupted run removes
   Simulation simulation(plan);
   const auto writer = makeWriter(request, plan, simulation.twin());
-  simulation.run(writer.get(), !request.output && !request.json);
+  TerminalProgress progress(!request.output && !request.json);
+  simulation.run(writer.get(), progress);
   if (writer) {
     writer->finish();
   }

@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "reports/level_one_report.h"
+#include "requests/rotor_requests.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
 #include "tools/stage_options.h"
@@ -27,7 +27,7 @@ constexpr const char* kStabilityFooter =
     "  twin stability friswell_rotor --stage 500 0.4 0.015 1.6 --stage 400 0.4 0.012 1.5\n"
     "  twin stability friswell_rotor --stage \"0.5 kW\" \"400 mm\" \"15 mm\" 1.6";
 
-struct StabilityRequest {
+struct StabilityOptions {
   ReportOptions options;
   LevelOneRequest level_one;
   StageOptions stages;
@@ -37,7 +37,7 @@ struct StabilityRequest {
 
 void addStabilityCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("stability", kStabilityDescription);
-  const auto request = std::make_shared<StabilityRequest>();
+  const auto request = std::make_shared<StabilityOptions>();
   addReportOptions(command, request->options, "the diagram");
   command
       .quantity("--speed", request->level_one.speed, kRunningSpeed, "speed of the shaft",
@@ -49,9 +49,10 @@ void addStabilityCommand(const ProgramCommand& twin, int& status) {
   command.footer(kStabilityFooter);
   command.callback([request, &status] {
     request->level_one.stages = request->stages.all();
-    status = reportRotors(request->options, [&](const RotorSystem& rotor) {
-      return levelOneReport(rotor, request->level_one);
-    });
+    status =
+        printDocument(stabilityDocument(sceneOf(request->options), request->options.system,
+                                        request->level_one, chosenUnits(request->options.units)),
+                      request->options);
   });
 }
 

@@ -11,11 +11,11 @@
 #include "reports/drawings.h"
 #include "reports/rotor_systems.h"
 #include "reports/tradeoff_report.h"
+#include "requests/durations.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
 #include "tools/report_options.h"
-#include "tools/scene_argument.h"
 
 namespace whirl_twin {
 

@@ -30,6 +30,7 @@ constexpr const char* kTwinDescription =
 
 constexpr const char* kTwinFooter =
     "First steps:\n"
+    "  twin serve demo           runs it, live in a browser\n"
     "  twin check demo           checks the scene and prints what is modelled\n"
     "  twin analyze demo         equilibria, frequencies, stability, criticals\n"
     "  twin simulate demo --sample 0.01 --output demo.csv\n"
@@ -112,6 +113,7 @@ int run(int argc, const char* const* argv) {
   addNewCommand(commands, status);
   addImportCommand(commands, status);
   addSimulateCommand(commands, status);
+  addServeCommand(commands, status);
   addPlotCommand(commands, status);
   addAnalyzeCommand(commands, status);
   addCampbellCommand(commands, status);

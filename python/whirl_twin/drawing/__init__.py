@@ -60,10 +60,15 @@ def save(figure: Mapping[str, Any], path: str, format: str) -> None:
     """
     if format not in FORMATS:
         raise RequestError(f"format: one of {', '.join(FORMATS)} is required, found {format!r}")
-    drawn = draw(figure)
-    from .output import image
+    from .request import checked_figure
 
-    contents = image(drawn, format)
+    checked = checked_figure(figure, "figure")
+    try:
+        from . import output, style
+    except ImportError as error:
+        raise MissingLibrary.of(error) from error
+    with style.context():
+        contents = output.image(_drawn(checked), format)
     with open(path, "wb") as file:
         file.write(contents)
 

@@ -59,6 +59,8 @@ def draw_bars(chart: dict, ax=None):
         handles = [Patch(facecolor=color, edgecolor=style.darker(color, 0.3), linewidth=0.8 * PX)
                    for color in (_COLORS[k % len(_COLORS)] for k in range(len(names)))]
         style.add_legend(ax, handles, names, width, 7.0)
+    if sheet is None:
+        style.add_axes_title(ax, chart["title"], names, width)
     return ax.figure if sheet is None else sheet
 
 
@@ -75,11 +77,10 @@ def _sheet(chart: dict, names: list, height: float):
     top = style.title_space(chart["title"], _WIDTH)
     subtitle, size = style.fitted(chart["subtitle"], style.TICK, _WIDTH - 20.0)
     subtitle_height = 4.0 + style.height_of(subtitle, size) if subtitle else 0.0
-    rows = len(style.legend_rows(names, width))
+    rows = style.legend_rows(names, width)
     plot_top = top + subtitle_height + style.LEGEND_ROW * rows + 8.0
     sheet = style.sheet(
-        _WIDTH, plot_top + height + _FOOT, chart["title"],
-        f"{chart['x']['label']} of " + ", ".join(group["name"] for group in chart["groups"]))
+        _WIDTH, plot_top + height + _FOOT, chart["title"], chart["description"])
     style.add_title(sheet, chart["title"])
     if subtitle:
         style.add_text(sheet, 0.5 * _WIDTH, top - 4.0, subtitle, size, "center", "top", style.GREY)

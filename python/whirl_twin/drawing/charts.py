@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Tuple
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -18,7 +18,8 @@ _SECOND_SCALE = 44.0  # px, above a chart
 _RIGHT = 22.0  # px
 _FOOT = 50.0  # px, of tick labels and label below a chart
 _PER_TICK = 30.0  # px, at least, along a vertical axis
-_FREE_LEGEND_ROWS = 3  # more make a chart higher instead of its curves lower
+_MANY_MARKS = 2000
+_FREE_LEGEND_ROWS = 2  # more make a chart higher instead of its curves lower
 
 
 def pen_of(series: dict, index: int) -> dict:
@@ -44,10 +45,10 @@ class _Layout:
     def __init__(self, chart: dict, width: float, height: float):
         self.chart = chart
         self.names = _legend_names(chart)
-        self.rows = len(style.legend_rows(self.names, width - 70.0))
+        self.rows = style.legend_rows(self.names, width - 70.0)
         self.extra = style.LEGEND_ROW * max(0, self.rows - _FREE_LEGEND_ROWS)
         self.title, self.title_size = style.fitted(
-            chart["title"], style.CHART_TITLE, width - 20.0, True)
+            chart["title"], style.CHART_TITLE, max(width - 140.0, 0.75 * width), True)
         self.x, self.y = _range(chart, "x"), _range(chart, "y")
         self.legend_height = style.LEGEND_ROW * self.rows + (6.0 if self.rows else 0.0)
         title = 11.0 + style.height_of(self.title, self.title_size) if self.title else 8.0
@@ -78,8 +79,8 @@ class _Layout:
     def finish_x(self, width: float) -> None:
         """Ends of the x axis for a width of the plot [px]."""
         if not self.chart["x"]["tight"] and not self.chart["equal_aspect"]:
-            ticks = ticks_of(
-                self.chart["x"], *self.x, most_across(self.chart["x"], width, *self.x, inside=False))
+            most = most_across(self.chart["x"], width, *self.x, inside=False)
+            ticks = ticks_of(self.chart["x"], *self.x, most)
             self.x = (ticks[0], ticks[-1])
 
 
@@ -106,7 +107,7 @@ def draw_charts(figure: dict, ax=None):
             layout = _Layout(charts[0], width + 70.0, height + 90.0)
             _finish_equal(layout, width, height)
             layout.finish_x(width)
-            _draw_chart(ax, layout, width)
+            _draw_chart(ax, layout, width, width, True)
             if not layout.title and figure["title"]:
                 ax.set_title(figure["title"], size=style.CHART_TITLE * PX, weight="bold",
                              pad=(layout.legend_height + layout.above + 6.0) * PX, y=1.0)
@@ -118,7 +119,7 @@ def draw_charts(figure: dict, ax=None):
     heights = [figure["chart_height"] + max(layout.extra for layout in row) for row in rows]
     top = style.title_space(figure["title"], figure["width"])
     sheet = style.sheet(
-        figure["width"], max(top + sum(heights), 60.0), figure["title"], _description(charts))
+        figure["width"], max(top + sum(heights), 60.0), figure["title"], figure["description"])
     style.add_title(sheet, figure["title"])
     for row, height in zip(rows, heights):
         for column, layout in enumerate(row):
@@ -145,7 +146,7 @@ def _place_chart(
     _finish_equal(layout, width, height)
     layout.finish_x(width)
     ax = style.add_axes(sheet, cell_left + left, cell_top + layout.top, width, height)
-    _draw_chart(ax, layout, cell - 70.0)
+    _draw_chart(ax, layout, cell - 70.0, cell - left - 10.0, False)
 
 
 def _finish_equal(layout: _Layout, width: float, height: float) -> None:
@@ -160,7 +161,10 @@ def _finish_equal(layout: _Layout, width: float, height: float) -> None:
         )
 
 
-def _draw_chart(ax, layout: _Layout, legend_width: float) -> None:
+def _draw_chart(
+    ax, layout: _Layout, legend_width: float, legend_space: float, clip: bool
+) -> None:
+    """All of a chart; `clip`: marks end at the frame, as axes that can be zoomed need."""
     chart = layout.chart
     _set_axes(ax, layout)
     handles = []
@@ -170,7 +174,7 @@ def _draw_chart(ax, layout: _Layout, legend_width: float) -> None:
         if high > low:
             ax.axvspan(low, high, facecolor=band["color"], edgecolor="none", zorder=0.2)
     reference = {"color": style.GREY, "linewidth": 1.2 * PX, "linestyle": style.dash_of([6.0, 4.0]),
-                 "zorder": 0.9}
+                 "zorder": 1.5}
     for i, series in enumerate(chart["series"]):
         x = shown(series["x"], chart["x"]["logarithmic"])
         y = shown(series["y"], chart["y"]["logarithmic"])
@@ -181,12 +185,15 @@ def _draw_chart(ax, layout: _Layout, legend_width: float) -> None:
                 area = Polygon(np.column_stack((x, y))[good], closed=True, facecolor=series["fill"],
                                edgecolor="none", zorder=1.0 + 1.0e-4 * i, label=series["name"])
                 ax.add_patch(area)
-        handle = _add_series(ax, series, pen, x, y, i)
+        _add_series(ax, series, pen, x, y, i, clip)
         if series["name"]:
             handles.append(Patch(facecolor=series["fill"], edgecolor=style.GREY, linewidth=0.6)
-                           if series["fill"] else handle)
-        curves.append((np.column_stack((x, y)), pen["width"],
-                       series["line"] and not series["fill"], series["marks"] != "none"))
+                           if series["fill"] else Line2D([], [], **_look(series, pen)))
+        spots = np.column_stack((x, y))
+        if series["fill"] and len(spots):
+            spots = np.vstack((spots, spots[:1]))  # a label is not across its border
+        curves.append((spots, pen["width"], series["line"] or series["fill"] is not None,
+                       series["marks"] != "none"))
     # After the curves: ax.lines[i] is the series i.
     for line in chart["vertical"]:
         if layout.x[0] <= line["at"] <= layout.x[1]:
@@ -197,36 +204,45 @@ def _draw_chart(ax, layout: _Layout, legend_width: float) -> None:
     handles += [Patch(facecolor=band["color"], edgecolor=style.GREY, linewidth=0.6)
                 for band in chart["bands"] if band["name"]]
     if layout.names:
-        style.add_legend(ax, handles, layout.names, legend_width, layout.above + 7.0)
+        style.add_legend(ax, handles, layout.names, legend_width, layout.above + 7.0, legend_space)
     ax.set_xlim(layout.x[::-1] if chart["x"]["inverted"] else layout.x)
     ax.set_ylim(layout.y[::-1] if chart["y"]["inverted"] else layout.y)
     label_chart(ax, chart, curves)
 
 
-def _add_series(ax, series: dict, pen: dict, x: np.ndarray, y: np.ndarray, index: int) -> Line2D:
-    color = pen["color"]
-    marks: Dict[str, object] = {"marker": "None"}
-    if series["marks"] == "dots":
-        marks = {"marker": "o", "markersize": 2 * MARK * PX, "markerfacecolor": color,
-                 "markeredgecolor": style.BLACK, "markeredgewidth": 1.0 * PX}
-    elif series["marks"] == "rings":
-        marks = {"marker": "o", "markersize": 2 * MARK * PX, "markerfacecolor": "white",
-                 "markeredgecolor": color, "markeredgewidth": 2.0 * PX}
-    has_line = series["line"] and not series["fill"]
+def _look(series: dict, pen: dict) -> Dict[str, Any]:
+    """Properties of its line and marks."""
+    line = style.dash_of(pen["dash"]) if series["line"] and not series["fill"] else "None"
+    look = {"color": pen["color"], "linewidth": pen["width"] * PX, "linestyle": line}
+    if series["marks"] == "none":
+        return {**look, "marker": "None"}
+    dots = series["marks"] == "dots"
+    if len(series["x"]) > _MANY_MARKS:  # a cloud: outlines would hide it
+        return {**look, "marker": "o", "markersize": MARK * PX, "markeredgewidth": 0.0}
+    return {
+        **look, "marker": "o", "markersize": 2 * MARK * PX,
+        "markerfacecolor": pen["color"] if dots else "white",
+        "markeredgecolor": style.BLACK if dots else pen["color"],
+        "markeredgewidth": (1.0 if dots else 2.0) * PX,
+    }
+
+
+def _add_series(
+    ax, series: dict, pen: dict, x: np.ndarray, y: np.ndarray, index: int, clip: bool
+) -> None:
+    marked = series["marks"] != "none"
     (line,) = ax.plot(
-        x, y, color=color, linewidth=pen["width"] * PX,
-        linestyle=style.dash_of(pen["dash"]) if has_line else "None",
-        zorder=(2.0 if series["marks"] == "none" else 3.0) + 1.0e-4 * index,
-        label=series["name"] or "_", clip_on=series["marks"] == "none", **marks,
+        x, y, zorder=(3.0 if marked else 2.0) + 1.0e-4 * index, label=series["name"] or "_",
+        clip_on=clip or not marked, **_look(series, pen),
     )
-    if has_line and series["marks"] == "none":
+    if series["line"] and not series["fill"] and not marked:
         alone = _alone(x, y)
         if alone.any():  # a point between two gaps has no line: it is a dot
             line.set_marker("o")
-            line.set_markersize(max(pen["width"] + 1.5, 3.0) * PX)
+            line.set_markersize(max(pen["width"] + 1.5, 4.0) * PX)
             line.set_markeredgewidth(0.0)
             line.set_markevery(np.flatnonzero(alone).tolist())
-    return line
+            line.set_clip_on(clip)
 
 
 def _alone(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -329,19 +345,3 @@ def _add_second_scales(ax, chart: dict, width: float, height: float) -> None:
         for spine in scale.spines.values():
             spine.set_color(style.GREY)
             spine.set_linewidth(1.2 * PX)
-
-
-def _description(charts: List[dict]) -> str:
-    """A text for screen readers: what is drawn over what."""
-
-    def name(axis: dict) -> str:
-        return axis["label"] + (", " + axis["second"]["label"] if axis["second"] else "")
-
-    texts = []
-    for chart in charts:
-        title = chart["title"] + ": " if chart["title"] else ""
-        names = ", ".join(series["name"] for series in chart["series"] if series["name"])
-        lines = "".join(f" [{line['label']} at {line['at']:.4g}]"
-                        for line in chart["vertical"] + chart["horizontal"] if line["label"])
-        texts.append(f"{title}{name(chart['y'])} over {name(chart['x'])}: {names}{lines}")
-    return "; ".join(texts)

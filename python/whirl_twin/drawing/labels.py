@@ -11,6 +11,7 @@ from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
 from . import style
+from .thinning import by_columns, pieces_of
 
 HEIGHT = 15.0  # px, of a line of text
 MARK = 4.5  # px, radius
@@ -32,10 +33,15 @@ class LabelPlaces:
         gc = self._renderer.new_gc()
         gc.set_linewidth(width)
         xy = np.where(np.abs(xy) < 1.0e5, xy, np.nan)
-        # In pieces: Agg refuses very long paths.
-        for start in range(0, max(len(xy) - 1, 0), 5000):
-            piece = Path(xy[start : start + 5001])
-            self._renderer.draw_path(gc, piece, self._upright())
+        pieces = pieces_of(xy)
+        if len(pieces) > 1000:
+            pieces = [xy]
+        pieces = [by_columns(piece) if (np.diff(piece[:, 0]) >= 0.0).all() else piece
+                  for piece in pieces]
+        stretches = [piece[i : i + 501] for piece in pieces for i in range(0, len(piece) - 1, 500)]
+        # Of a tangle a part is enough to find the free places. Agg refuses very long paths.
+        for stretch in stretches[:: 1 + len(stretches) // 100]:
+            self._renderer.draw_path(gc, Path(stretch), self._upright())
         gc.restore()
         self._sums = None
 
@@ -139,15 +145,17 @@ def label_chart(ax, chart: dict, curves: List[Tuple[np.ndarray, float, bool, boo
             _note(ax, places, x, y, note)
 
 
-def _annotate(ax, text: str, at, coordinates, shift, rotated: bool, color: str, covers: bool, **more):
-    """A text whose middle is `shift` [px] from a point."""
+def _annotate(
+    ax, text: str, at, coordinates, shift, rotated: bool, color: str, covers: bool, **more
+) -> None:
+    """A text whose middle is `shift` [px] from a point; on white where it covers something."""
+    white = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.5}
     ax.annotate(
         text, xy=at, xycoords=coordinates, xytext=(shift[0] * style.PX, -shift[1] * style.PX),
         textcoords="offset points", ha="center", va="center_baseline" if not rotated else "center",
         rotation=90 if rotated else 0, size=style.NOTE * style.PX, color=color, zorder=5,
         rotation_mode="anchor", annotation_clip=False,
-        bbox={"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.5} if covers else None,
-        **more,
+        bbox=white if covers else None, **more,
     )
 
 
@@ -169,8 +177,8 @@ def _label_upright(ax, places: LabelPlaces, x: float, line: dict) -> None:
     while not beside or y + length < places.height:
         beside += [(x - 3.0 - HEIGHT, y, HEIGHT, length), (x + 3.0, y, HEIGHT, length)]
         y += 10.0
-    for away in (3.0, 20.0, 40.0, 60.0):
-        for y in range(5, 66, 10):
+    for away in (3.0, 12.0, 24.0):  # farther away it would be ambiguous
+        for y in range(5, max(6, int(places.height - HEIGHT)), 10):
             beside += [(x + away, y, length, HEIGHT), (x - away - length, y, length, HEIGHT)]
     _place_label(ax, places, line, beside, (line["at"], 1.0), ("data", "axes fraction"), (x, 0.0))
 

@@ -12,7 +12,8 @@ from matplotlib.patches import Patch
 from . import style
 from .request import RequestError
 from .style import PX
-from .ticks import TickLabels, Ticks, data_range, linear_ticks, most_across, shown
+from .ticks import (TickLabels, Ticks, data_range, exponent_of, linear_labels, linear_ticks,
+                    logarithmic_labels, most_across, shown, ticks_of)
 
 _WIDTH, _HEIGHT = 800.0, 560.0  # px
 _CONTOUR_DASHES = ((), (7.0, 4.0), (2.5, 3.0), (9.0, 3.0, 2.0, 3.0))
@@ -56,7 +57,9 @@ def draw_map(chart: dict, ax=None):
         handles.append(Patch(facecolor=style.HOLE, edgecolor=style.GREY, linewidth=0.6))
         names.append(HOLE_NAME)
     bar_ax = None
-    if ax is None:
+    if ax is not None:
+        style.add_axes_title(ax, chart["title"], names, style.size_of(ax)[0])
+    else:
         sheet, ax, bar_ax = _sheet(chart, y, names)
     _set_axes(ax, chart, x, y)
     # As pixels in an SVG too: ten thousand cells as paths are a megabyte.
@@ -80,16 +83,26 @@ def _under():
 
 
 def _sheet(chart: dict, y: np.ndarray, names: list) -> Tuple:
-    left, width = 92.0, _WIDTH - 130.0 - 92.0
-    rows = len(style.legend_rows(names, width))
+    widest = max(style.text_width(label, style.TICK) for label in _y_labels(chart, y))
+    label, size = style.fitted(chart["y"]["label"], style.LABEL, _HEIGHT - 60.0)
+    left = 24.0 + style.height_of(label, size) + widest
+    width = _WIDTH - 130.0 - left
+    rows = style.legend_rows(names, width)
     top = style.title_space(chart["title"], _WIDTH) + style.LEGEND_ROW * rows + 16.0
     height = _HEIGHT - 44.0 - 58.0
     sheet = style.sheet(
-        _WIDTH, top + height + 58.0, chart["title"],
-        f"{chart['label']} over {chart['x']['label']} and {chart['y']['label']}")
+        _WIDTH, top + height + 58.0, chart["title"], chart["description"])
     style.add_title(sheet, chart["title"])
     ax = style.add_axes(sheet, left, top, width, height)
     return sheet, ax, style.add_axes(sheet, left + width + 22.0, top, 20.0, height)
+
+
+def _y_labels(chart: dict, y: np.ndarray) -> list:
+    fields = chart["y"]
+    ticks = ticks_of(fields, float(y[0]), float(y[-1]), 10, True) or [float(y[0])]
+    if fields["logarithmic"]:
+        return logarithmic_labels(ticks)
+    return linear_labels(ticks, exponent_of(ticks))
 
 
 def _set_axes(ax, chart: dict, x: np.ndarray, y: np.ndarray) -> None:
@@ -141,7 +154,7 @@ def _set_bar(bar, chart: dict, limits: Tuple[float, float]) -> None:
     fields = {"logarithmic": False, "degrees": False}
     bar.ax.yaxis.set_major_locator(Ticks(fields, lambda a, b: 9))
     bar.ax.yaxis.set_major_formatter(TickLabels(False))
-    bar.ax.tick_params(length=4.0 * PX, color=style.GREY, labelsize=style.TICK * PX, labelleft=False)
+    bar.ax.tick_params(length=4.0 * PX, color=style.GREY, labelsize=style.TICK * PX)
     bar.ax.minorticks_off()
     bar.ax.yaxis.get_offset_text().set_size(style.TICK * PX)
     bar.ax.yaxis.get_offset_text().set_color(style.BLACK)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import io
 import re
-import warnings
-from xml.sax.saxutils import escape
+from html import escape
 
 from . import style
+from .thinning import thin
 
 _PNG_DPI = 144
 
@@ -18,13 +18,13 @@ def image(figure, format: str) -> bytes:
         return svg(figure).encode("utf-8")
     file = io.BytesIO()
     title = figure.whirl_twin_title
-    with style.context(), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # letters that the font does not have
+    with style.context():
         if format == "pdf":
-            _thin(figure)
-            figure.savefig(file, format="pdf", metadata={
+            thin(figure, style.DPI, False)
+            figure.savefig(file, format="pdf", dpi=_PNG_DPI, metadata={
                 "Title": title, "Creator": "whirl_twin", "CreationDate": None})
         else:
+            thin(figure, _PNG_DPI, True)
             figure.savefig(file, format="png", dpi=_PNG_DPI, metadata={
                 "Title": title, "Software": None})
     return file.getvalue()
@@ -33,10 +33,9 @@ def image(figure, format: str) -> bytes:
 def svg(figure, prefix: str = "") -> str:
     """An SVG document; its identifiers begin with `prefix`, so that a page can hold several."""
     file = io.StringIO()
-    with style.context(), warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        _thin(figure)
-        figure.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
+    with style.context():
+        thin(figure, style.DPI, False)
+        figure.savefig(file, format="svg", dpi=_PNG_DPI, metadata={"Date": None, "Creator": None})
     text = file.getvalue()
     text = text[text.index("<svg") :]
     # matplotlib writes six decimals (of 1/72 inch) and a style rule for all elements of a page.
@@ -50,14 +49,10 @@ def svg(figure, prefix: str = "") -> str:
         lambda name: f' id="{prefix}{name.group(1)}"' if name.group(1) in used else "", text)
     text = re.sub(r'(href="#|url\(#)', lambda start: start.group() + prefix, text)
     head, body = text.split(">", 1)
-    title = f"\n<title>{escape(figure.whirl_twin_title)}</title>" if figure.whirl_twin_title else ""
+    title, description = figure.whirl_twin_title, figure.whirl_twin_description
     return (
-        f'{head} role="img" style="stroke-linejoin:round;stroke-linecap:butt">{title}'
-        f"\n<desc>{escape(figure.whirl_twin_description)}</desc>{body}"
+        f'{head} role="img" style="stroke-linejoin:round;stroke-linecap:butt">'
+        + (f"\n<title>{escape(title, quote=False)}</title>" if title else "")
+        + f"\n<desc>{escape(description, quote=False)}</desc>{body}"
     )
 
-
-def _thin(figure) -> None:
-    from .thinning import thin
-
-    thin(figure)

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import re
+from typing import List
 
 from jinja2 import Environment, PackageLoader
+
+from .request import RequestError
 
 # Of a cell that begins like a number: it is aligned to the right.
 _NUMBER = re.compile("[-+−±]? ?[0-9]")
@@ -14,17 +17,35 @@ def html(page: dict) -> str:
     """The contents of the file of a checked page."""
     figures = 0
     parts = []
-    for part in page["parts"]:
+    for i, part in enumerate(page["parts"]):
         content = part["content"]
         if part["kind"] == "figure":
             figures += 1
-            content = _inlined(content, figures)
+            try:
+                content = _inlined(content, figures)
+            except RequestError as error:
+                raise RequestError(f"page.parts[{i}].{error}") from error
+        elif part["kind"] == "table":
+            content = {**content, "numeric": _numeric_columns(content)}
         parts.append({"kind": part["kind"], "content": content})
     environment = Environment(
         loader=PackageLoader("whirl_twin.drawing"), autoescape=True, trim_blocks=True,
         lstrip_blocks=True, auto_reload=False)
-    environment.tests["numeric"] = lambda text: _NUMBER.match(text) is not None
+    environment.tests["numeric"] = _is_numeric
     return environment.get_template("page.html").render({**page, "parts": parts}) + "\n"
+
+
+def _is_numeric(text: str) -> bool:
+    return _NUMBER.match(text) is not None
+
+
+def _numeric_columns(table: dict) -> List[bool]:
+    """Has a column numbers only? Its head is above them."""
+    columns = []
+    for i in range(len(table["head"])):
+        cells = [row[i]["text"] for row in table["rows"] if i < len(row) and row[i]["text"]]
+        columns.append(bool(cells) and all(_is_numeric(c) or c in ("–", "—", "-") for c in cells))
+    return columns
 
 
 def _inlined(figure: dict, number: int):

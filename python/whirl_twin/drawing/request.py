@@ -165,7 +165,8 @@ def record(fields: Mapping[str, Any]) -> Check:
         for name in value:
             if name not in fields:
                 raise RequestError(
-                    f"{where}: one of the fields {', '.join(fields)} is required, found {found(name)}"
+                    f"{where}: one of the fields {', '.join(fields)} is required, "
+                    f"found {found(name)}"
                 )
         result = {}
         for name, field in fields.items():
@@ -233,6 +234,9 @@ SKETCH = record({
     "size": (number_or_gap, 1.0), "height": _POSITIVE, "centre": (point, (0.0, 0.0, 0.0)),
     "spatial": _NO,
 })
+_BAR = record({
+    "value": number_or_gap, "low": (number_or_gap, None), "high": (number_or_gap, None),
+})
 _SHEET = {"kind": text, "title": _TEXT, "description": _TEXT}
 FIGURES = {
     "charts": record({
@@ -240,8 +244,7 @@ FIGURES = {
         "chart_height": (whole(120, 5000), 460), "charts": list_of(CHART)}),
     "bars": record({
         **_SHEET, "subtitle": _TEXT, "x": _AXIS, "names": (list_of(text), []),
-        "groups": list_of(record({"name": _TEXT, "bars": list_of(record({
-            "value": number_or_gap, "low": (number_or_gap, None), "high": (number_or_gap, None)}))})),
+        "groups": list_of(record({"name": _TEXT, "bars": list_of(_BAR)})),
         "base": (number, 0.0)}),
     "map": record({
         **_SHEET, "x": _AXIS, "y": _AXIS, "label": _TEXT, "x_levels": numbers, "y_levels": numbers,
@@ -265,9 +268,10 @@ def checked_figure(value: Any, where: str) -> Dict[str, Any]:
 def _cell(value: Any, where: str) -> Dict[str, str]:
     if isinstance(value, str):
         return {"text": text(value, where), "class": ""}
-    return record({"text": text, "class": (one_of("", "danger", "warning", "info"), "")})(value, where)
+    return _MARKED_CELL(value, where)
 
 
+_MARKED_CELL = record({"text": text, "class": (one_of("", "danger", "warning", "info"), "")})
 _TABLE = record({"head": (list_of(text), []), "rows": list_of(list_of(_cell))})
 _PARTS: Dict[str, Check] = {
     "section": text, "part": text, "text": text, "list": list_of(text), "table": _TABLE,

@@ -77,6 +77,20 @@ def rim(disc: dict, along: float, angles=_ANGLES) -> np.ndarray:
             + disc["radius"] * (np.cos(angles) * zero + np.sin(angles) * side))
 
 
+def _key(point: np.ndarray) -> Tuple[float, ...]:
+    return tuple(float(f"{x:.6g}") + 0.0 for x in point)
+
+
+def _thickest_at_ends(rods: List[dict]) -> dict:
+    """Of each end of a rod: how many rods meet there, and the largest and least radius."""
+    ends: dict = {}
+    for rod in rods:
+        for at in (rod["from"], rod["to"]):
+            count, most, least = ends.get(_key(at), (0, 0.0, math.inf))
+            ends[_key(at)] = (count + 1, max(most, rod["radius"]), min(least, rod["radius"]))
+    return ends
+
+
 def _box_axes(box: dict) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
     c, s = math.cos(box["pitch"]), math.sin(box["pitch"])
     return np.array([c, 0.0, s]), np.array([0.0, 1.0, 0.0]), np.array([-s, 0.0, c])
@@ -112,6 +126,7 @@ class PartDrawing:
     def __init__(self, ax, view: View, scale: float):
         self._ax, self._view, self._scale = ax, view, scale
         self._pale = 0.0
+        self._ends: dict = {}
         self._order = 2.0
 
     def next_order(self) -> float:
@@ -122,6 +137,7 @@ class PartDrawing:
     def draw(self, sketch: dict, pale: float) -> None:
         """All parts; `pale`: share of white in every colour."""
         self._pale = pale
+        self._ends = _thickest_at_ends(sketch["rods"]) if sketch["spatial"] else {}
         for line in sketch["lines"]:
             self._line(line)
         parts: List[Tuple[float, Callable[[], None]]] = []
@@ -132,9 +148,12 @@ class PartDrawing:
                 parts.append((self._view.depth(at), functools.partial(draw, part)))
 
         add("boxes", self._box)
-        # Rods at one depth share an outline: a beam of many rods appears as one piece.
-        add("rods", self._rod_outline)
-        add("rods", self._rod)
+        if sketch["spatial"]:
+            add("rods", self._cylinder)
+        else:
+            # Rods at one depth share an outline: a beam of many rods appears as one piece.
+            add("rods", self._rod_outline)
+            add("rods", self._rod)
         add("discs", self._disc)
         add("dampers", self._damper)
         add("springs", self._spring)
@@ -182,6 +201,51 @@ class PartDrawing:
             up = 0.35 * radius * normal
             self._polygon(self._capsule(start + up, end + up, 0.22 * radius),
                           paler(color, 0.45), color, 0.0)
+
+    def _cylinder(self, rod: dict) -> None:
+        """A round bar with flat ends; between two equally thick ones there is no line."""
+        radius = max(rod["radius"], 1.1 / self._scale)
+        plate = {"at": rod["from"], "axis": rod["to"] - rod["from"], "radius": radius,
+                 "thickness": 0.0}
+        count = int(min(max(8.0 * math.sqrt(radius * self._scale), 12.0), 60.0))
+        angles = np.linspace(0.0, 2.0 * math.pi, count, endpoint=False)
+        along = self._view.at(plate["axis"])
+        start = self._view.at(rim(plate, 0.0, angles))
+        color = self._color(rod["role"])
+        edge = self._outline(color)
+        far, near = (rod["from"], start), (rod["to"], start + along)
+        if self._view.depth(plate["axis"]) > 0.0:
+            far, near = near, far
+        if self._is_end(far[0], radius):
+            self._polygon(far[1], color, edge, 2.0 * _THIN)
+        self._polygon(_hull(np.concatenate((start, start + along))), color, color, 0.4)
+        if math.hypot(*along) * self._scale > 0.5:
+            sides = self._lines_along(plate, along, (1.0, 0.5, 0.2, -1.0))
+            if radius * self._scale > 2.5:
+                light = np.array([sides[1], sides[1] + along, sides[2] + along, sides[2]])
+                self._polygon(light, paler(color, 0.4), color, 0.0)
+            for side in (sides[0], sides[3]):
+                self._stroke(np.array([side, side + along]), edge, _THIN)
+        if self._is_end(near[0], radius):
+            self._polygon(near[1], paler(color, 0.25), edge)
+
+    def _is_end(self, at: np.ndarray, radius: float) -> bool:
+        """Has a bar a visible face there: no neighbour, or a thinner one?"""
+        count, most, least = self._ends[_key(at)]
+        return count == 1 or most > 1.001 * least and radius >= most
+
+    def _lines_along(self, plate: dict, along: np.ndarray, heights) -> np.ndarray:
+        """Where lines along the visible side of a cylinder begin, at heights [radii] on the sheet."""
+        normal = np.array([-along[1], along[0]]) / math.hypot(*along)
+        normal = normal if normal[1] >= 0.0 else -normal
+        _, zero, side = disc_axes(plate)
+        highest = math.atan2(self._view.at(side) @ normal, self._view.at(zero) @ normal)
+        starts = []
+        for height in heights:
+            angles = (highest + math.acos(height), highest - math.acos(height))
+            points = [rim(plate, 0.0, angle) for angle in angles]
+            starts.append(self._view.at(min(points, key=self._view.depth)))
+        return np.array(starts)
 
     def _rod_outline(self, rod: dict) -> None:
         ends = self._view.at([rod["from"], rod["to"]])

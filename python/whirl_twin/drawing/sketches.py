@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from typing import Iterable, List, Tuple
+from typing import List, Tuple
 
 import numpy as np
 
@@ -90,9 +89,8 @@ def _sheet(picture: dict, low: np.ndarray, high: np.ndarray, width: float, heigh
     foot = _FOOT + (style.height_of(note, size) + 4.0 if below else 0.0)
     plot_height = scale * height
     sheet_height = top + plot_height + 0.5 * _MARGIN + foot
-    count = len(picture["ghosts"])
     sheet = style.sheet(round(sheet_width), round(sheet_height), picture["title"],
-                        picture["note"] or f"{count} later positions (faint)")
+                        picture["description"])
     style.add_title(sheet, picture["title"])
     ax = style.add_axes(sheet, 0.0, 0.0, round(sheet_width), round(sheet_height))
     ax.set_zorder(-1)

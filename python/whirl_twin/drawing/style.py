@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import contextvars
 import functools
+import math
 import textwrap
+import warnings
 from typing import Iterator, List, Optional, Tuple
 
 import matplotlib
@@ -82,15 +85,27 @@ _SETTINGS = {
 }
 
 
+_applied = contextvars.ContextVar("applied", default=False)
+
+
 @contextlib.contextmanager
 def context() -> Iterator[None]:
     """Settings of whirl_twin's figures; those of the user's matplotlibrc do not apply inside."""
-    with matplotlib.rc_context():
+    if _applied.get():
+        yield
+        return
+    token = _applied.set(True)
+    with matplotlib.rc_context(), warnings.catch_warnings():
+        # Letters that the font does not have: an SVG shows them all the same.
+        warnings.filterwarnings("ignore", message="Glyph")
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(
             {name: value for name, value in _SETTINGS.items() if name in matplotlib.rcParams}
         )
-        yield
+        try:
+            yield
+        finally:
+            _applied.reset(token)
 
 
 def mixed(color: str, share: float, other: int) -> str:
@@ -165,14 +180,13 @@ def add_axes(figure: Figure, left: float, top: float, width: float, height: floa
 
 
 def add_text(
-    figure: Figure, x: float, y: float, text: str, size: float, ha: str = "left", va: str = "center",
-    color: str = BLACK, bold: bool = False, **more,
-):
+    figure: Figure, x: float, y: float, text: str, size: float, ha: str = "left",
+    va: str = "center", color: str = BLACK,
+) -> None:
     """A text at a place of a figure [px from its upper left corner]."""
     width, height = figure.get_size_inches() * DPI
-    return figure.text(
-        x / width, 1.0 - y / height, text, size=size * PX, ha=ha, va=va, color=color,
-        weight="bold" if bold else "normal", **more,
+    figure.text(
+        x / width, 1.0 - y / height, text, size=size * PX, ha=ha, va=va, color=color
     )
 
 
@@ -194,46 +208,68 @@ def add_title(figure: Figure, title: str) -> None:
         )
 
 
-def legend_width(names: List[str]) -> float:
-    """Width [px] of entries side by side."""
-    return sum(SAMPLE + 8.0 + text_width(name, TICK) for name in names) + 22.0 * (len(names) - 1)
-
-
 SAMPLE = 24.0  # px, of a line in a legend
 LEGEND_ROW = 20.0  # px
+_LEGEND_GAP = 22.0  # px, between entries
 
 
-def legend_rows(names: List[str], width: float) -> List[List[int]]:
-    """Entries in as many rows as a width [px] needs: of each row their indices."""
-    rows: List[List[int]] = []
-    for i, name in enumerate(names):
-        if rows and legend_width([names[k] for k in rows[-1]] + [name]) <= width:
-            rows[-1].append(i)
-        else:
-            rows.append([i])
-    return rows
+def legend_places(names: List[str], width: float) -> List[Tuple[int, float]]:
+    """Row and left edge [px] of each entry of a legend, in as many rows as a width [px] needs.
+
+    Entries of several rows are in columns, unless one long name would make them many more.
+    """
+    sizes = [SAMPLE + 8.0 + text_width(name, TICK) + _LEGEND_GAP for name in names]
+    places: List[Tuple[int, float]] = []
+    row, x = 0, 0.0
+    for size in sizes:
+        if x > 0.0 and x + size - _LEGEND_GAP > width:
+            row, x = row + 1, 0.0
+        places.append((row, x))
+        x += size
+    if row == 0:
+        return places
+    column = max(sizes)
+    columns = max(1, int((width + _LEGEND_GAP) / column))
+    if (len(names) - 1) // columns > row + 1:
+        return places
+    return [(i // columns, column * (i % columns)) for i in range(len(names))]
 
 
-def add_legend(ax, handles: list, names: List[str], width: float, above: float) -> None:
-    """A legend in rows above the axes, `above` [px] over their upper edge; it covers no curve."""
+def add_axes_title(ax, title: str, names: List[str], width: float) -> None:
+    """A title over a legend, on axes of the caller."""
+    ax.set_title(title, size=CHART_TITLE * PX, weight="bold", color=BLACK, y=1.0,
+                 pad=(LEGEND_ROW * legend_rows(names, width) + 12.0) * PX)
+
+
+def legend_rows(names: List[str], width: float) -> int:
+    return max((row + 1 for row, _ in legend_places(names, width)), default=0)
+
+
+def add_legend(
+    ax, handles: list, names: List[str], width: float, above: float, space: float = math.inf
+) -> None:
+    """A legend in rows above the axes, `above` [px] over their upper edge; it covers no curve.
+
+    It begins at their left edge, or so far left of it that it ends `space` [px] right of it.
+    """
     from matplotlib.legend import Legend
     from matplotlib.transforms import ScaledTranslation
 
     rows = legend_rows(names, width)
-    for i, row in enumerate(rows):
-        up = above + LEGEND_ROW * (len(rows) - 1 - i)
-        shift = ScaledTranslation(0.0, up / DPI, ax.figure.dpi_scale_trans)
-        legend = Legend(
-            ax, [handles[k] for k in row], [fitted(names[k], TICK, width - 40.0)[0] for k in row],
-            loc="lower left", bbox_to_anchor=(0.0, 1.0), bbox_transform=ax.transAxes + shift,
-            ncol=len(row), frameon=False, borderpad=0.0, borderaxespad=0.0, labelspacing=0.0,
-            fontsize=TICK * PX, handlelength=SAMPLE / TICK, handletextpad=8.0 / TICK,
-            columnspacing=22.0 / TICK, handleheight=0.8,
+    places = legend_places(names, width)
+    needed = max(x + SAMPLE + 8.0 + text_width(name, TICK) for name, (_, x) in zip(names, places))
+    left = min(0.0, space - min(needed, width))
+    for handle, name, (row, x) in zip(handles, names, places):
+        up = above + LEGEND_ROW * (rows - 1 - row)
+        shift = ScaledTranslation((left + x) / DPI, up / DPI, ax.figure.dpi_scale_trans)
+        text, size = fitted(name, TICK, max(width - SAMPLE - 8.0, 60.0))
+        entry = Legend(
+            ax, [handle], [text], loc="lower left", bbox_to_anchor=(0.0, 1.0),
+            bbox_transform=ax.transAxes + shift, frameon=False, borderpad=0.0, borderaxespad=0.0,
+            labelspacing=0.0, fontsize=size * PX, handlelength=SAMPLE / size,
+            handletextpad=8.0 / size, handleheight=0.8,
         )
-        legend.set_in_layout(False)
-        ax.add_artist(legend)
-        if i == 0:
-            ax.legend_ = None
+        ax.add_artist(entry)
 
 
 def scale_of(ax) -> float:

@@ -7,28 +7,35 @@ from typing import List
 import numpy as np
 from matplotlib.path import Path
 
-_ALL_SPOTS = 9000  # of a whole file: an SVG stays below about 200 kB
+_FILE_SPOTS = 9000  # of a whole file: an SVG stays below about 200 kB
+_PIXEL_SPOTS = 40000  # of a PNG: its drawing stays below a few seconds
 _MOST_MARKS = 1200  # of a whole file; more are drawn as pixels
 _UNSEEN = 0.12  # px, maximum deviation of a line
 _COARSEST = 0.9  # px, the same if there would be too many points
 _COLUMN = 0.5  # px
 _CELL = 0.75  # px, less than the width of a line
+_MOST_SAMPLES = 4.0e6  # of a line on the raster of cells
+_MARK_CELL = 1.5  # px, marks as near as that cover each other
 
 
-def thin(figure) -> None:
-    """Thin all lines of a figure."""
+def thin(figure, dpi: float, pixels: bool) -> None:
+    """Thin all lines of a figure for a file of `dpi` px per inch, of pixels or of lines."""
+    spots = _PIXEL_SPOTS if pixels else _FILE_SPOTS
     lines = [(ax, line) for ax in figure.axes for line in ax.lines
              if line.get_transform() == ax.transData]
-    if sum(len(line.get_xdata(orig=False)) for _, line in lines) > _ALL_SPOTS:
+    if sum(len(line.get_xdata(orig=False)) for _, line in lines) > spots:
         curves = [line for _, line in lines if line.get_linestyle() not in ("None", "")]
         for ax, line in lines:
             if line in curves and line.get_marker() in ("None", None):
-                _thin_line(ax, line, max(50, _ALL_SPOTS // len(curves)))
-    marked = [line for _, line in lines
-              if line.get_marker() not in ("None", None) and line.get_markevery() is None]
-    if sum(len(line.get_xdata(orig=False)) for line in marked) > _MOST_MARKS:
-        for line in marked:
-            if len(line.get_xdata(orig=False)) > 20:
+                _thin_line(ax, line, max(50, spots // len(curves)), dpi)
+    marked = [(ax, line) for ax, line in lines if line.get_marker() not in ("None", None)]
+    if not pixels and sum(_marks(line) for _, line in marked) > _MOST_MARKS:
+        for ax, line in marked:
+            if line.get_linestyle() in ("None", ""):
+                _thin_marks(ax, line)
+    if not pixels and sum(_marks(line) for _, line in marked) > _MOST_MARKS:
+        for _, line in marked:
+            if _marks(line) > 20:
                 line.set_rasterized(True)
     for ax in figure.axes:
         for patch in ax.patches:
@@ -37,18 +44,18 @@ def thin(figure) -> None:
                 _thin_area(ax, patch)
 
 
-def _to_px(ax, xy: np.ndarray) -> np.ndarray:
+def _to_px(ax, xy: np.ndarray, dpi: float = 100.0) -> np.ndarray:
     with np.errstate(all="ignore"):
-        spots = ax.transData.transform(xy) * (100.0 / ax.figure.dpi)
+        spots = ax.transData.transform(xy) * (dpi / ax.figure.dpi)
     return np.where(np.abs(spots) < 1.0e6, spots, np.nan)
 
 
-def _to_data(ax, spots: np.ndarray) -> np.ndarray:
-    return ax.transData.inverted().transform(spots * (ax.figure.dpi / 100.0))
+def _to_data(ax, spots: np.ndarray, dpi: float = 100.0) -> np.ndarray:
+    return ax.transData.inverted().transform(spots * (ax.figure.dpi / dpi))
 
 
-def _thin_line(ax, line, most: int) -> None:
-    spots = _to_px(ax, np.column_stack(line.get_data(orig=False)))
+def _thin_line(ax, line, most: int, dpi: float) -> None:
+    spots = _to_px(ax, np.column_stack(line.get_data(orig=False)), dpi)
     pieces = [thinned(piece) for piece in pieces_of(spots)]
     if sum(map(len, pieces)) > most:
         share = most / sum(map(len, pieces))
@@ -57,7 +64,23 @@ def _thin_line(ax, line, most: int) -> None:
     if pieces:
         gap = np.full((1, 2), np.nan)
         joined = np.concatenate([row for piece in pieces for row in (gap, piece)][1:])
-        line.set_data(*_to_data(ax, joined).T)
+        line.set_data(*_to_data(ax, joined, dpi).T)
+
+
+def _marks(line) -> int:
+    """How many marks it has."""
+    every = line.get_markevery()
+    return len(line.get_xdata(orig=False)) if every is None else len(every)
+
+
+def _thin_marks(ax, line) -> None:
+    """One mark of those that cover each other."""
+    xy = np.column_stack(line.get_data(orig=False))
+    spots = _to_px(ax, xy)
+    xy, spots = (rows[np.isfinite(spots).all(axis=1)] for rows in (xy, spots))
+    cells = np.floor(spots / _MARK_CELL).astype(np.int64)
+    _, first = np.unique(cells[:, 0] * 2**32 + cells[:, 1], return_index=True)
+    line.set_data(*xy[np.sort(first)].T)
 
 
 def _thin_area(ax, patch) -> None:
@@ -112,7 +135,8 @@ def without_repeats(spots: np.ndarray, most: int) -> List[np.ndarray]:
     A periodic motion draws the same loop again and again. The line is coarsened, by a pixel at
     most, and the tolerance of equality grows, until at most `most` points remain.
     """
-    tolerance, cell = _UNSEEN, _CELL
+    length = np.hypot(*np.diff(spots, axis=0).T).sum()
+    tolerance, cell = _UNSEEN, max(_CELL, 2.0 * length / _MOST_SAMPLES)
     while True:
         pieces = _fresh(simplified(spots, tolerance), cell)
         if sum(map(len, pieces)) <= max(most, 2) or cell > 1000.0:

@@ -116,7 +116,9 @@ def logarithmic_ticks(low: float, high: float, most: int, inside: bool = False) 
     below = [tick for tick in ticks if tick <= low * (1.0 + _SLACK)]
     above = [tick for tick in ticks if tick >= high * (1.0 - _SLACK)]
     kept = [tick for tick in ticks if below[-1] <= tick <= above[0]]
-    return [t for t in kept if low <= t * (1.0 + _SLACK) and t <= high * (1.0 + _SLACK)] if inside else kept
+    if not inside:
+        return kept
+    return [t for t in kept if low <= t * (1.0 + _SLACK) and t <= high * (1.0 + _SLACK)]
 
 
 def ticks_of(axis: dict, low: float, high: float, most: int, inside: bool = False) -> List[float]:
@@ -131,7 +133,7 @@ def superscript(exponent: int) -> str:
 
 
 def exponent_of(ticks: Sequence[float]) -> int:
-    """The power of ten of the labels of an axis: a multiple of 3; 0 where plain numbers are short."""
+    """The power of ten of an axis: a multiple of 3; 0 where plain numbers are short."""
     largest = max(abs(tick) for tick in ticks)
     if 0.5e-1 <= largest < 1.0e5 or largest == 0.0:
         return 0
@@ -205,7 +207,9 @@ class Ticks(Locator):
 
     def tick_values(self, low: float, high: float) -> List[float]:
         low, high = sorted((float(low), float(high)))
-        if not (low < high and math.isfinite(high - low)) or self.fields["logarithmic"] and low <= 0:
+        if not (low < high and math.isfinite(high - low)):
+            return []
+        if self.fields["logarithmic"] and low <= 0.0:
             return []
         most = self.most(low, high)
         if self.step is not None and (high - low) / self.step <= 4 * most:
@@ -213,8 +217,15 @@ class Ticks(Locator):
             last = math.floor(high / self.step + _SLACK)
             ticks = [i * self.step for i in range(first, last + 1)]
         else:
-            ticks = ticks_of(self.fields, low, high, most, True)
+            ticks = ticks_of(self.fields, low, high, most)
+            if not (_same(ticks[0], low, high) and _same(ticks[-1], high, low)):
+                ticks = ticks_of(self.fields, low, high, most, True)
         return ticks
+
+
+def _same(tick: float, end: float, other_end: float) -> bool:
+    """Is a tick at an end of the axis?"""
+    return abs(tick - end) <= 1.0e-9 * min(abs(end - other_end), max(abs(tick), abs(end)))
 
 
 class FineTicks(Locator):

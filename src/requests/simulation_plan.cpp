@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "accuracy/step_choice.h"
 #include "integration/step_methods.h"
@@ -10,12 +11,11 @@
 #include "models/model_registry.h"
 #include "reports/asked_cost.h"
 #include "reports/rotor_systems.h"
+#include "requests/durations.h"
+#include "requests/simulation.h"
 #include "scene/drive_reader.h"
 #include "scene/model_context.h"
 #include "scene/system_setup.h"
-#include "tools/arguments.h"
-#include "tools/commands.h"
-#include "tools/simulation.h"
 
 namespace whirl_twin {
 
@@ -88,11 +88,16 @@ std::vector<SensorSpec> selectedSensors(const Scene& scene, const std::string& n
 }  // namespace
 
 SimulationPlan planSimulation(const SimulationRequest& request) {
-  SimulationPlan plan;
   const SceneTree scene(request.scene);
+  SimulationPlan plan = planSimulation(scene.scene(), request);
   plan.tree = scene.tree();
   plan.source = scene.absoluteSource();
-  plan.scene = scene.scene();
+  return plan;
+}
+
+SimulationPlan planSimulation(Scene scene, const SimulationRequest& request) {
+  SimulationPlan plan;
+  plan.scene = std::move(scene);
   plan.checkpoint = request.checkpoint;
   plan.resume = request.resume;
   plan.systems = selectedSystems(plan.scene, request.system);
@@ -116,6 +121,17 @@ SimulationPlan planSimulation(const SimulationRequest& request) {
   plan.insist = request.insist;
   tell(costOfRun(build(plan.scene)), plan.insist);
   return plan;
+}
+
+void warnOfExternalControllers(const Scene& scene) {
+  for (const ControllerSpec& controller : scene.controllers) {
+    if (controller.type == "external") {
+      complain(
+          fmt::format("twin: controllers.{}: runs in another process and acts only live; here its "
+                      "output is 0\n",
+                      controller.name));
+    }
+  }
 }
 
 std::string SimulationPlan::asked() const {

@@ -1,4 +1,4 @@
-#include "tools/run_watches.h"
+#include "requests/run_watches.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "tools/simulation.h"
+#include "requests/simulation.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,6 @@
 
 #include "messages/input_error.h"
 #include "realtime/denormals.h"
-#include "tools/commands.h"
-#include "tools/interrupt.h"
 #include "twin/ensemble_observer.h"
 #include "twin/stop_text.h"
 
@@ -31,8 +29,6 @@ Simulation::Simulation(const SimulationPlan& plan)
       accuracy_(twin_, plan_.systems),
       stopped_(plan.scene.systems.size()) {
   twin_.buildEnsembles();
-  // Before a writer opens its file, which an interrupted run removes.
-  catchInterrupts();
   if (plan_.checkpoint || plan_.resume) {
     checkpoint_.scene = sceneLines(plan_.tree, twin_);
   }
@@ -74,11 +70,11 @@ void Simulation::save() {
   writeCheckpoint(*plan_.checkpoint, bytesOf(checkpoint_));
 }
 
-void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
+void Simulation::run(SampleWriter* writer, WorkProgress& progress) {
   const DenormalsToZero denormals_to_zero;  // as in the real-time loop: identical numbers
-  ProgressBar bar(plan_.asked(), plan_.steps, results_on_standard_output, plan_.insist);
+  progress.begin(plan_.asked(), plan_.steps, plan_.insist);
   std::vector<double> record(twin_.layout().size);
-  warn(bar);
+  warn(progress);
   const bool every_step = !plan_.sensors.empty() || validity_.watches();
   const bool followed = writer != nullptr && writer->followsSteps();
   if (writer != nullptr) {
@@ -96,11 +92,11 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
   while (i < plan_.steps) {
     const std::int64_t passed = every_step || i == 0 ? 1 : observer_.mostPassed();
     const std::int64_t due = std::min({i + passed, next_sample, plan_.steps});
-    i = followed ? stepFollowed(due, *writer, record) : stepUnseen(due);
+    i = followed ? stepFollowed(due, *writer, record, progress) : stepUnseen(due, progress);
     twin_.write(record.data());
     observer_.observe(record.data());
-    noteStops(bar);
-    warn(bar);
+    noteStops(progress);
+    warn(progress);
     if (writer != nullptr && i == next_sample) {
       writer->write(observer_);
       next_sample += plan_.stride;
@@ -114,9 +110,9 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
       }
     }
     if (i >= next_bar) {
-      next_bar = i + bar.show(i);
+      next_bar = i + progress.show(i);
     }
-    const bool asked_to_end = interrupted();
+    const bool asked_to_end = progress.interrupted();
     if (plan_.checkpoint && (asked_to_end || std::chrono::steady_clock::now() >= next_save)) {
       save();
       next_save = std::chrono::steady_clock::now() + kSavePeriod;
@@ -128,18 +124,19 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
   if (plan_.checkpoint) {
     save();
   }
+  progress.clear();
   for (const state::Measurement& block : measurements_.finish()) {
     writer->write(block);
   }
 }
 
 /// Advances by at least a step, to one that must be observed: the one due or one before it.
-std::int64_t Simulation::stepUnseen(std::int64_t due) {
+std::int64_t Simulation::stepUnseen(std::int64_t due, WorkProgress& progress) {
   const std::int64_t at_once = observer_.looks() ? 1 : kStepsAtOnce;
   std::int64_t i = twin_.stepCount();
   while (true) {
     i += twin_.steps(std::min(due - i, at_once));
-    if (i == due || interrupted() || stopsNow() || !observer_.look(twin_)) {
+    if (i == due || progress.interrupted() || stopsNow() || !observer_.look(twin_)) {
       return i;
     }
   }
@@ -147,12 +144,12 @@ std::int64_t Simulation::stepUnseen(std::int64_t due) {
 
 /// As stepUnseen(), with every record passed to the writer.
 std::int64_t Simulation::stepFollowed(std::int64_t due, SampleWriter& writer,
-                                      std::vector<double>& record) {
+                                      std::vector<double>& record, WorkProgress& progress) {
   std::int64_t i = twin_.stepCount();
   while (true) {
     twin_.step();
     ++i;
-    if (i == due || interrupted() || stopsNow() || writer.hasToSee(i)) {
+    if (i == due || progress.interrupted() || stopsNow() || writer.hasToSee(i)) {
       return i;
     }
     twin_.write(record.data());
@@ -179,23 +176,23 @@ bool Simulation::stopsNow() const {
   });
 }
 
-void Simulation::noteStops(ProgressBar& bar) {
+void Simulation::noteStops(WorkProgress& progress) {
   for (const std::size_t i : plan_.systems) {
     if (twin_.status(i) != StepStatus::kOk && !stopped_[i]) {
       stopped_[i] = observer_.step();
-      bar.clear();
+      progress.clear();
       complain(fmt::format("twin: {}\n", observer_.stopReason(i)));
     }
   }
 }
 
-void Simulation::warn(ProgressBar& bar) {
+void Simulation::warn(WorkProgress& progress) {
   std::vector<std::string> warnings = validity_.look(observer_);
   for (std::string& warning : accuracy_.look(observer_)) {
     warnings.push_back(std::move(warning));
   }
   for (const std::string& warning : warnings) {
-    bar.clear();
+    progress.clear();
     complain(fmt::format("twin: {}\n", warning));
   }
 }

@@ -7,8 +7,8 @@
 
 namespace whirl_twin {
 
-/// Their folder: beside the installed program, or in the source that it was built from. Empty if
-/// neither exists.
+/// Their folder: of the installation that the program or the Python module belongs to, or in the
+/// source that it was built from. Empty if neither exists.
 std::filesystem::path shippedSceneFolder();
 
 /// The scene files of a folder, sorted by name.

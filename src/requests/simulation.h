@@ -8,9 +8,9 @@
 
 #include "reports/output.h"
 #include "reports/sample_writer.h"
-#include "tools/progress_bar.h"
-#include "tools/run_watches.h"
-#include "tools/scene_argument.h"
+#include "requests/run_watches.h"
+#include "requests/scene_argument.h"
+#include "requests/work_progress.h"
 #include "twin/checkpoint.h"
 #include "twin/measurements.h"
 #include "twin/observer.h"
@@ -53,16 +53,20 @@ struct SimulationPlan {
 
 /// Reads the scene and checks the options against it. Throws SceneError or InputError.
 SimulationPlan planSimulation(const SimulationRequest& request);
+/// Of a scene that was read before; the request's path is not used.
+SimulationPlan planSimulation(Scene scene, const SimulationRequest& request);
+
+/// Warns that a run without the processes of a scene's external controllers differs.
+void warnOfExternalControllers(const Scene& scene);
 
 class Simulation {
  public:
-  /// From now on SIGINT and SIGTERM end a run in an orderly way. Throws InputError for a checkpoint
-  /// that cannot be resumed.
+  /// Throws InputError for a checkpoint that cannot be resumed.
   explicit Simulation(const SimulationPlan& plan);
 
   /// Runs to the end. `writer` may be null. A system that stops is reported on standard error and
-  /// the others continue. Throws RunFailure if SIGINT or SIGTERM ends it before.
-  void run(SampleWriter* writer, bool results_on_standard_output);
+  /// the others continue. Throws RunFailure if it is interrupted.
+  void run(SampleWriter* writer, WorkProgress& progress);
 
   const Twin& twin() const { return twin_; }
   /// Are all systems of the plan still running?
@@ -73,11 +77,12 @@ class Simulation {
  private:
   void resumeFrom(const std::string& path);
   void save();
-  std::int64_t stepUnseen(std::int64_t due);
-  std::int64_t stepFollowed(std::int64_t due, SampleWriter& writer, std::vector<double>& record);
+  std::int64_t stepUnseen(std::int64_t due, WorkProgress& progress);
+  std::int64_t stepFollowed(std::int64_t due, SampleWriter& writer, std::vector<double>& record,
+                            WorkProgress& progress);
   bool stopsNow() const;
-  void noteStops(ProgressBar& bar);
-  void warn(ProgressBar& bar);
+  void noteStops(WorkProgress& progress);
+  void warn(WorkProgress& progress);
   Json systemJson(std::size_t system) const;
   Json ensembleJson(const Ensemble& ensemble) const;
 

@@ -1,12 +1,12 @@
-#include "tools/scene_argument.h"
+#include "requests/scene_argument.h"
 
 #include <filesystem>
 
 #include "estimation/estimator_scene.h"
 #include "messages/input_error.h"
+#include "requests/shipped_scenes.h"
 #include "scene/scene_error.h"
 #include "scene/yaml_file.h"
-#include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
 
@@ -39,25 +39,6 @@ Scene SceneTree::estimatorScene() const {
 
 Scene sceneOf(const SceneArgument& argument) {
   return SceneTree(argument).scene();
-}
-
-Option addSetOption(const ProgramCommand& command, SceneArgument& scene) {
-  command.takeUnits();
-  return command
-      .option("--set", scene.changes,
-              "replace a value of the scene before it is checked: rotor.damping=8, "
-              "\"rotor.discs[0].mass=500 g\", \"shaft.speed=800 rpm\"; may be repeated")
-      .type("PATH=VALUE")
-      .oneByOne();
-}
-
-void addSceneOption(const ProgramCommand& command, SceneArgument& scene) {
-  command
-      .option("SCENE", scene.name,
-              "scene file (YAML), the name of a scene of the package, or - for standard input")
-      .required()
-      .type("");
-  addSetOption(command, scene);
 }
 
 }  // namespace whirl_twin

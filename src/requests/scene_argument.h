@@ -10,7 +10,6 @@
 
 #include "scene/scene.h"
 #include "scene/scene_changes.h"
-#include "tools/command.h"
 
 namespace whirl_twin {
 
@@ -43,10 +42,5 @@ class SceneTree {
 
 /// The scene, of a command that needs nothing of its file.
 Scene sceneOf(const SceneArgument& argument);
-
-/// --set alone.
-Option addSetOption(const ProgramCommand& command, SceneArgument& scene);
-/// SCENE and --set.
-void addSceneOption(const ProgramCommand& command, SceneArgument& scene);
 
 }  // namespace whirl_twin

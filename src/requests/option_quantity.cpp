@@ -1,4 +1,4 @@
-#include "tools/option_quantity.h"
+#include "requests/option_quantity.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,174 @@
+#include "web/system_picture.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/constants.h"
+#include "mechanics/round_number.h"
+#include "reports/sketch_json.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kDeflection = 0.12;  // of the picture's size, of a magnified motion
+constexpr double kForgetting = 0.98;  // of the radius of late, from picture to picture
+constexpr double kTiny = 1.0e-15;     // of the picture's size: no motion
+
+Eigen::VectorXd coordinatesOf(const Observer& observer, std::size_t system, int dof) {
+  return Eigen::Map<const Eigen::VectorXd>(observer.coordinates(system), dof);
+}
+
+}  // namespace
+
+Sketch discRotorSketch(double x, double y, double angle) {
+  constexpr int kRods = 12;          // of the bent shaft
+  constexpr double kSpan = 0.9;      // between the bearings
+  constexpr double kGround = -0.36;  // below the shaft
+  const auto at = [&](double along) {
+    const double bent = std::sin(kPi * (along / kSpan + 0.5));
+    return SketchPoint{along, bent * x, bent * y};
+  };
+  Sketch sketch;
+  sketch.size = 1.2;
+  sketch.height = 0.85;
+  sketch.spatial = true;
+  for (int i = 0; i < kRods; ++i) {
+    sketch.rods.push_back({at(kSpan * (static_cast<double>(i) / kRods - 0.5)),
+                           at(kSpan * (static_cast<double>(i + 1) / kRods - 0.5)), 0.02,
+                           SketchRole::kBody});
+  }
+  sketch.discs.push_back(
+      {at(0.0), {1.0, 0.0, 0.0}, 0.22, 0.06, angle - 0.5 * kPi, SketchRole::kMass});
+  for (const double end : {-0.5 * kSpan, 0.5 * kSpan}) {
+    sketch.rods.push_back(
+        {{end - 0.03, 0.0, 0.0}, {end + 0.03, 0.0, 0.0}, 0.05, SketchRole::kSupport});
+    sketch.rods.push_back({{end, 0.0, -0.05}, {end, 0.0, kGround}, 0.015, SketchRole::kSupport});
+    sketch.boxes.push_back({{end, 0.0, kGround}, {0.14, 0.14, 0.03}, 0.0, SketchRole::kSupport});
+  }
+  sketch.tracer = at(0.0);
+  sketch.has_tracer = true;
+  return sketch;
+}
+
+SystemPicture::SystemPicture(std::size_t system, const BuiltSystem& built)
+    : system_(system), rotor_(built.dynamics->isRotor()) {
+  if (rotor_) {
+    names_ = {"x", "y"};
+  } else {
+    for (const CoordinateInfo& one : built.dynamics->coordinates()) {
+      names_.push_back(one.name);
+    }
+  }
+  values_.resize(names_.size());
+}
+
+void SystemPicture::restart() {
+  times_.clear();
+  speeds_.clear();
+  for (std::vector<double>& values : values_) {
+    values.clear();
+  }
+  stride_ = 1;
+  passed_ = 0;
+  longest_ = 0.0;
+}
+
+void SystemPicture::sample(const Observer& observer) {
+  if (passed_++ % stride_ != 0) {
+    return;
+  }
+  if (times_.size() == kMaxSamples) {  // every other of them, from now on, too
+    const auto thin = [](std::vector<double>& all) {
+      for (std::size_t i = 0; 2 * i < all.size(); ++i) {
+        all[i] = all[2 * i];
+      }
+      all.resize((all.size() + 1) / 2);
+    };
+    thin(times_);
+    thin(speeds_);
+    std::for_each(values_.begin(), values_.end(), thin);
+    stride_ *= 2;
+  }
+  times_.push_back(observer.instant().time);
+  speeds_.push_back(observer.moment(system_).speed);
+  if (rotor_) {
+    const WhirlMotion whirl = observer.whirlOf(system_);
+    values_[0].push_back(whirl.x);
+    values_[1].push_back(whirl.y);
+    longest_ = std::max(longest_, whirl.radius());
+    return;
+  }
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    values_[i].push_back(observer.coordinates(system_)[i]);
+  }
+}
+
+/// The magnification stays while the motion is well visible, so that the picture is calm.
+void SystemPicture::magnify(double radius, double size) {
+  longest_ = std::max(radius, kForgetting * longest_);
+  if (!std::isfinite(longest_) || longest_ < kTiny * size) {
+    return;
+  }
+  const double shown = magnification_ * longest_ / size;
+  if (shown > kDeflection || shown < 0.2 * kDeflection) {
+    magnification_ = roundDown125(kDeflection * size / longest_);
+  }
+}
+
+Sketch SystemPicture::rotorSketch(const Observer& observer, const Dynamics& dynamics) {
+  const EvaluationPoint<double> at = observer.moment(system_);
+  Eigen::VectorXd q = coordinatesOf(observer, system_, dynamics.dof());
+  const Sketch still = dynamics.sketch(Eigen::VectorXd::Zero(dynamics.dof()), at);
+  if (still.empty()) {
+    const WhirlMotion whirl = observer.whirlOf(system_);
+    magnify(whirl.radius(), 1.0);
+    return discRotorSketch(magnification_ * whirl.x, magnification_ * whirl.y, at.angle);
+  }
+  double radius = 0.0;
+  for (const Station& station : dynamics.stations()) {
+    radius = std::max(radius, std::hypot(station.along_x.dot(q), station.along_y.dot(q)));
+  }
+  magnify(radius, still.size);
+  const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    if (coordinates[i].name != "spin") {  // the angle of a shaft that a motor turns
+      q[static_cast<Eigen::Index>(i)] *= magnification_;
+    }
+  }
+  return dynamics.sketch(q, at);
+}
+
+Sketch SystemPicture::sketch(const Observer& observer, const Dynamics& dynamics) {
+  return rotor_ ? rotorSketch(observer, dynamics)
+                : dynamics.sketch(coordinatesOf(observer, system_, dynamics.dof()),
+                                  observer.moment(system_));
+}
+
+Json SystemPicture::take(const Observer& observer, const Dynamics& dynamics) {
+  const state::Instant now = observer.instant();
+  const bool runs = observer.status(system_) == StepStatus::kOk;
+  const Sketch drawn = runs ? sketch(observer, dynamics) : Sketch{};
+  Json json = {
+      {"step", now.step},
+      {"time", now.time},
+      {"stopped", observer.stopReason(system_)},
+      {"speed", observer.moment(system_).speed},
+      {"angle", observer.moment(system_).angle},
+      {"magnification", rotor_ ? magnification_ : 1.0},
+      {"names", names_},
+      {"sketch", drawn.empty() ? Json() : sketchJson(drawn)},
+      {"tracer", drawn.has_tracer ? Json{drawn.tracer.x, drawn.tracer.y, drawn.tracer.z} : Json()},
+      {"samples", {{"time", times_}, {"speed", speeds_}, {"values", values_}}}};
+  times_.clear();
+  speeds_.clear();
+  for (std::vector<double>& values : values_) {
+    values.clear();
+  }
+  stride_ = std::max<std::size_t>(1, stride_ / 2);
+  passed_ = 0;
+  return json;
+}
+
+}  // namespace whirl_twin
