@@ -256,7 +256,7 @@ TEST(SetOption, IsRecordedInTheLog) {
       twin({"simulate", kDemo, "--set", "rotor.damping=8", "--duration", "0.1", "--output", log})
           .status,
       0);
-  EXPECT_NE(contentsOf(log).find("damping: 8\n"), std::string::npos);
+  EXPECT_NE(contentsOf(log).find(std::string("damping: 8\0", 11)), std::string::npos);
 }
 
 TEST(SetOption, IsNamedByItsErrors) {
