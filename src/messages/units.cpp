@@ -12,6 +12,8 @@
 #include <string_view>
 #include <utility>
 
+#include "messages/names.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -188,7 +190,7 @@ bool looksLikeUnit(const std::string& text) {
       return false;
     }
   }
-  return true;
+  return printable(text, text.size()) == text;  // the parser stops at an invalid byte
 }
 
 bool endsAsDensity(const std::string& unit) {

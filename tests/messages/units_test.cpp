@@ -199,7 +199,8 @@ TEST(Units, TheOneMeantIsNamed) {
 }
 
 TEST(Units, AFactorIsNoPartOfAUnit) {
-  for (const char* none : {"rpm 2", "m 3", "m/2", "m*2", "m.5", "2 m", "1/2 s", "1/"}) {
+  for (const char* none : {"rpm 2", "m 3", "m/2", "m*2", "m.5", "2 m", "1/2 s", "1/", "\xff",
+                           "rpm\xff", "rpm\xc2", "rpm\xc3(", "rpm\n", "rpm\xe2\x80\xae"}) {
     EXPECT_FALSE(isUnit(none)) << none;
   }
   for (const char* unit : {"kg m2", "m^2/s^2", "1/s", "N.m", "N m/rad"}) {

@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
             "unit '\\xff')"},
         RefusedNumber{{"map", kFriswell, "--from", "100 lb/in"},
                       "--from: must be a stiffness above 0, up to 1e+18 N/m, found '100 lb/in' "
-                      "(cannot be converted to N/m; write 'lbf/in')"},
+                      "('lb/in' cannot be converted to N/m; write 'lbf/in')"},
         RefusedNumber{{"stability", kFriswell, "--stage", "500", "0.4", "-0.015", "1.6"},
                       "--stage: must be a width > 0 m, found -0.015"},
         RefusedNumber{{"report", kFriswell, "--output", "x", "--speed", "3 m"},
