@@ -10,8 +10,11 @@
 #include "estimation/run_units.h"
 #include "messages/input_error.h"
 #include "messages/names.h"
+#include "models/model_registry.h"
 #include "scene/built_scene.h"
+#include "scene/error_list.h"
 #include "scene/node_reader.h"
+#include "scene/parameter_paths.h"
 #include "scene/part_of_scene.h"
 #include "scene/scene_reader.h"
 #include "scene/yaml_file.h"
@@ -47,7 +50,7 @@ class StudyReader {
       }
     }
     if (!diagnostics_.all().empty()) {
-      throw InputError(fmt::format("{}", fmt::join(diagnostics_.all(), "\ntwin: ")));
+      throw InputError(errorList(diagnostics_.all(), "\ntwin: "));
     }
     return study_;
   }
@@ -119,9 +122,10 @@ class StudyReader {
     } else if (windows.has("length")) {
       const auto number = parseQuantity(windows.text("length", ""), "s");
       if (!number || *number < kMinWindow || *number > kMaxWindow) {
-        diagnostics_.add(windows.key("length"),
-                         fmt::format("must be from {:g} to {:g} s, or `all`, found {}", kMinWindow,
-                                     kMaxWindow, shown(windows.at("length"))));
+        diagnostics_.add(
+            windows.key("length"),
+            fmt::format("must be from {:g} to {:g} s, or `all`, found {}{}", kMinWindow, kMaxWindow,
+                        shown(windows.at("length")), unitDiagnostic(windows.at("length"), "s")));
       } else {
         study_.window = *number;
       }
@@ -309,8 +313,8 @@ class StudyReader {
         map.at(name).IsScalar() ? parseQuantity(map.at(name).Scalar(), unit) : std::nullopt;
     if (!number) {
       diagnostics_.add(map.key(name),
-                       fmt::format("must be a finite number of {}, `fit` or `each_run`, found {}",
-                                   unit, shown(map.at(name))));
+                       fmt::format("must be a finite number of {}, `fit` or `each_run`, found {}{}",
+                                   unit, shown(map.at(name)), unitDiagnostic(map.at(name), unit)));
       return {fallback, false};
     }
     return {*number, false};
@@ -356,9 +360,10 @@ class StudyReader {
         if (!bounds.usable()) {
           continue;
         }
-        parameter.least = bounds.number("min", Range::kAny, "", parameter.least);
-        parameter.most = bounds.number("max", Range::kAny, "", parameter.most);
-        parameter.start = bounds.number("start", Range::kAny, "", parameter.start);
+        const std::string unit = unitAt(path, *findModel(built_->spec.model), built_->spec);
+        parameter.least = bounds.number("min", Range::kAny, unit, parameter.least);
+        parameter.most = bounds.number("max", Range::kAny, unit, parameter.most);
+        parameter.start = bounds.number("start", Range::kAny, unit, parameter.start);
         if (!(parameter.least < parameter.most)) {
           diagnostics_.add(fit.key(path), "min must be < max");
         } else if (parameter.start < parameter.least || parameter.start > parameter.most) {

@@ -10,6 +10,7 @@
 
 #include "messages/input_error.h"
 #include "messages/names.h"
+#include "scene/error_list.h"
 #include "scene/node_reader.h"
 
 namespace whirl_twin {
@@ -250,7 +251,7 @@ FollowSettings readFollowSettings(const YAML::Node& tree, const std::string& sou
     }
   }
   if (!diagnostics.all().empty()) {
-    throw InputError(fmt::format("{}", fmt::join(diagnostics.all(), "\ntwin: ")));
+    throw InputError(errorList(diagnostics.all(), "\ntwin: "));
   }
   return settings;
 }

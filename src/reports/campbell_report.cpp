@@ -45,18 +45,21 @@ Json crossingsJson(const CampbellReport& r, std::size_t first) {
   });
 }
 
-std::string crossingsText(const CampbellReport& r) {
+std::string crossingsText(const CampbellReport& r, const ShownUnits& u) {
   if (r.diagram.crossings.empty()) {
     return "  critical speeds, where a whirl (damping ratio up to 0.7) crosses the speed line: "
            "none in the range\n";
   }
-  std::string out =
+  const ShownUnit beside = u.besideSpeed();
+  std::string out = fmt::format(
       "  critical speeds, where a whirl (damping ratio up to 0.7) crosses the speed line\n"
-      "           rad/s         rpm  order  branch  direction   log decrement\n";
+      "{:>16} {:>11}  order  branch  direction   log decrement\n",
+      u.speed.name, beside.name);
   for (const CampbellCrossing& c : r.diagram.crossings) {
-    out += fmt::format("    {:>12.6g} {:>11.6g} {:>5g}X {:>7}  {:<9} {:>15}{}\n", c.speed,
-                       c.speed / kRpm, c.harmonic, c.branch + 1, name(c.mode.whirl),
-                       defined(c.mode.log_decrement, "-"), beyondMark(r.system->tables(), c.speed));
+    out +=
+        fmt::format("    {:>12.6g} {:>11.6g} {:>5g}X {:>7}  {:<9} {:>15}{}\n", u.speed.in(c.speed),
+                    beside.in(c.speed), c.harmonic, c.branch + 1, name(c.mode.whirl),
+                    defined(c.mode.log_decrement, "-"), beyondMark(r.system->tables(), c.speed));
   }
   return out;
 }
@@ -333,39 +336,43 @@ Json json(const CampbellReport& r) {
            })}};
 }
 
-std::string text(const CampbellReport& r) {
+std::string text(const CampbellReport& r, const ShownUnits& u) {
   const DataSpeeds data = r.system->tables();
-  std::string out =
-      fmt::format("{}: from {:g} to {:g} rad/s ({:.4g} to {:.4g} rpm)\n", r.system->title(),
-                  r.range.from, r.range.to, r.range.from / kRpm, r.range.to / kRpm);
-  out +=
+  std::string out = fmt::format("{}: from {:g} to {:g} {} ({:.4g} to {:.4g} {})\n",
+                                r.system->title(), u.speed.in(r.range.from), u.speed.in(r.range.to),
+                                u.speed.name, u.besideSpeed().in(r.range.from),
+                                u.besideSpeed().in(r.range.to), u.besideSpeed().name);
+  out += fmt::format(
       "  branch       at the lowest speed              at the highest speed\n"
-      "           rad/s   direction  log dec.      rad/s   direction  log dec.\n";
+      "{:>16}   direction  log dec. {:>10}   direction  log dec.\n",
+      u.frequency.name, u.frequency.name);
   for (std::size_t i = 0; i < r.diagram.branches.size(); ++i) {
     const CampbellPoint& first = r.diagram.branches[i].front();
     const CampbellPoint& last = r.diagram.branches[i].back();
-    out +=
-        fmt::format("  {:>3} {:>11}   {:<9} {:>9.4g} {:>10}   {:<9} {:>9.4g}\n", i + 1,
-                    defined(first.frequency, "overdamped"), name(first.whirl), first.log_decrement,
-                    defined(last.frequency, "overdamped"), name(last.whirl), last.log_decrement);
+    out += fmt::format("  {:>3} {:>11}   {:<9} {:>9.4g} {:>10}   {:<9} {:>9.4g}\n", i + 1,
+                       defined(u.frequency.in(first.frequency), "overdamped"), name(first.whirl),
+                       first.log_decrement, defined(u.frequency.in(last.frequency), "overdamped"),
+                       name(last.whirl), last.log_decrement);
   }
-  out += crossingsText(r);
-  out += "  undamped critical speeds, rad/s\n   ";
+  out += crossingsText(r, u);
+  out += fmt::format("  undamped critical speeds, {}\n   ", u.speed.name);
   for (const auto& one : r.undamped) {
-    out += fmt::format(" {:.6g} {}{},", one.speed, name(one.whirl), beyondMark(data, one.speed));
+    out += fmt::format(" {:.6g} {}{},", u.speed.in(one.speed), name(one.whirl),
+                       beyondMark(data, one.speed));
   }
   if (r.undamped.empty()) {
     out += " none,";
   }
   out.back() = '\n';
-  out += "  peaks of the unbalance response, rad/s\n";
+  out += fmt::format("  peaks of the unbalance response, {}\n", u.speed.name);
   for (const CriticalSpeed& peak : r.peaks) {
     const SpeedBand band = criticalBand(peak.speed, peak.amplification_factor);
-    out += fmt::format(
-        "    {:.6g}, amplification {}{}{}\n", peak.speed, defined(peak.amplification_factor, "-"),
-        band.empty() ? std::string(": critically damped")
-                     : fmt::format(": separation margin {:.5g} to {:.5g}", band.from, band.to),
-        beyondMark(data, peak.speed));
+    out += fmt::format("    {:.6g}, amplification {}{}{}\n", u.speed.in(peak.speed),
+                       defined(peak.amplification_factor, "-"),
+                       band.empty() ? std::string(": critically damped")
+                                    : fmt::format(": separation margin {:.5g} to {:.5g}",
+                                                  u.speed.in(band.from), u.speed.in(band.to)),
+                       beyondMark(data, peak.speed));
   }
   if (r.peaks.empty()) {
     out += "    none\n";
@@ -374,10 +381,10 @@ std::string text(const CampbellReport& r) {
   return r.range.to <= r.system->rotor.highest_speed
              ? out
              : out + fmt::format(
-                         "  the reduced-order rotor is valid up to {:g} rad/s: {} crossings and "
+                         "  the reduced-order rotor is valid up to {:g} {}: {} crossings and "
                          "undamped critical speeds\n  above are left out, and its branches are not "
                          "those of the machine there\n",
-                         r.system->rotor.highest_speed, r.beyond);
+                         u.speed.in(r.system->rotor.highest_speed), u.speed.name, r.beyond);
 }
 
 Figure figure(const CampbellReport& r) {

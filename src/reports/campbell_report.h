@@ -10,6 +10,7 @@
 #include "reports/csv_table.h"
 #include "reports/figure.h"
 #include "reports/rotor_systems.h"
+#include "reports/shown_units.h"
 
 namespace whirl_twin {
 
@@ -30,7 +31,7 @@ CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range
                               const std::function<void(std::size_t)>& progress = {});
 
 Json json(const CampbellReport& report);
-std::string text(const CampbellReport& report);
+std::string text(const CampbellReport& report, const ShownUnits& units = {});
 /// Branches, crossings, peaks.
 CsvTables tables(const CampbellReport& report);
 Figure figure(const CampbellReport& report);

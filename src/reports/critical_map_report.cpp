@@ -17,8 +17,7 @@ namespace {
 
 constexpr double kMinShare = 0.1;  // of the stiffest: less is a seal
 constexpr int kSpeeds = 41;
-constexpr double kStiffest = 1.0e18;  // N/m
-constexpr double kUsual = 1.0e8;      // N/m, where all bearings are rigid
+constexpr double kUsual = 1.0e8;  // N/m, where all bearings are rigid
 
 /// At a speed [rad/s], of all bearings of a node: kxx, kyy.
 std::pair<double, double> stiffnessOf(const FlexibleShaft& shaft, int node, double speed) {
@@ -77,7 +76,7 @@ void chooseBearings(const FlexibleShaft& shaft, const std::vector<int>& asked, d
 
 /// [N/m], that the map goes over.
 std::pair<double, double> rangeOf(const CriticalMapRequest& request, const CriticalMapReport& r) {
-  double least = kStiffest, most = 0.0;
+  double least = kMaxMapStiffness, most = 0.0;
   for (const BearingOnMap& bearing : r.bearings) {
     for (const std::vector<double>* list : {&bearing.kxx, &bearing.kyy}) {
       for (const double k : *list) {
@@ -96,11 +95,12 @@ std::pair<double, double> rangeOf(const CriticalMapRequest& request, const Criti
     throw InputError(
         "critical speed map: the bearings must support the rotor (kxx or kyy > 0), found none");
   }
-  const double to =
-      request.to.value_or(std::min(std::pow(10.0, std::ceil(std::log10(most)) + 2), kStiffest));
+  const double to = request.to.value_or(
+      std::min(std::pow(10.0, std::ceil(std::log10(most)) + 2), kMaxMapStiffness));
   const double from = request.from.value_or(std::pow(
-      10.0, std::floor(std::log10(std::min(std::max(least, 1e-3 * most), 1e-3 * kStiffest))) - 1));
-  if (!(from > 0.0 && from < to && to <= kStiffest)) {
+      10.0,
+      std::floor(std::log10(std::min(std::max(least, 1e-3 * most), 1e-3 * kMaxMapStiffness))) - 1));
+  if (!(from > 0.0 && from < to && to <= kMaxMapStiffness)) {
     throw InputError(fmt::format(
         "--from, --to: must be stiffnesses > 0 with --from < --to, found {:g} and {:g} N/m", from,
         to));
@@ -197,19 +197,19 @@ CsvTables tables(const CriticalMapReport& r) {
   return {map, bearings};
 }
 
-std::string text(const CriticalMapReport& r) {
+std::string text(const CriticalMapReport& r, const ShownUnits& u) {
   constexpr std::size_t kRows = 13;
   std::string out = fmt::format(
-      "{}: undamped forward critical speeds, rad/s, over the stiffness of each bearing\n"
-      "    stiffness, N/m",
-      r.system->title());
+      "{}: undamped forward critical speeds, {}, over the stiffness of each bearing\n"
+      "    {:>14}",
+      r.system->title(), u.speed.name, "stiffness, " + u.stiffness.name);
   for (std::size_t mode = 0; mode < r.map.speeds.size(); ++mode) {
     out += fmt::format(" {:>11}", fmt::format("mode {}", mode + 1));
   }
-  const auto cell = [](double speed) { return fmt::format(" {:>11.6g}", speed); };
+  const auto cell = [&](double speed) { return fmt::format(" {:>11.6g}", u.speed.in(speed)); };
   const std::size_t stride = std::max<std::size_t>(1, (r.map.stiffness.size() - 1) / (kRows - 1));
   for (std::size_t i = 0; i < r.map.stiffness.size(); i += stride) {
-    out += fmt::format("\n    {:>14.5g}", r.map.stiffness[i]);
+    out += fmt::format("\n    {:>14.5g}", u.stiffness.in(r.map.stiffness[i]));
     out += joined(r.map.speeds, [&](const std::vector<double>& mode) { return cell(mode[i]); });
   }
   out += "\n             rigid" + joined(r.map.rigid, cell) + "\n";
@@ -218,9 +218,10 @@ std::string text(const CriticalMapReport& r) {
       out += fmt::format("    bearing at node {:<4} rigid\n", bearing.node);
       continue;
     }
-    out += fmt::format("    bearing at node {:<4} kxx {:.5g}, kyy {:.5g} N/m at {:.5g} rad/s{}\n",
-                       bearing.node, bearing.kxx.back(), bearing.kyy.back(), r.speeds.back(),
-                       beyondMark(r.system->tables(), r.speeds.back()));
+    out += fmt::format(
+        "    bearing at node {:<4} kxx {:.5g}, kyy {:.5g} {} at {:.5g} {}{}\n", bearing.node,
+        u.stiffness.in(bearing.kxx.back()), u.stiffness.in(bearing.kyy.back()), u.stiffness.name,
+        u.speed.in(r.speeds.back()), u.speed.name, beyondMark(r.system->tables(), r.speeds.back()));
   }
   if (!r.left_out.empty()) {
     out += fmt::format(

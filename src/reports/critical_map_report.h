@@ -10,6 +10,7 @@
 #include "reports/csv_table.h"
 #include "reports/figure.h"
 #include "reports/rotor_systems.h"
+#include "reports/shown_units.h"
 
 namespace whirl_twin {
 
@@ -31,6 +32,8 @@ struct CriticalMapReport {
 };
 
 /// Options of `twin map`.
+inline constexpr double kMaxMapStiffness = 1.0e18;  ///< [N/m]
+
 struct CriticalMapRequest {
   std::optional<double> from, to;  ///< [N/m]; none: two decades beyond the bearings' own
   int points = 61;
@@ -44,7 +47,7 @@ struct CriticalMapRequest {
 CriticalMapReport criticalMapReport(const RotorSystem& system, const CriticalMapRequest& request);
 
 Json json(const CriticalMapReport& report);
-std::string text(const CriticalMapReport& report);
+std::string text(const CriticalMapReport& report, const ShownUnits& units = {});
 /// Critical speeds over the stiffness; the bearings over the speed.
 CsvTables tables(const CriticalMapReport& report);
 Figure figure(const CriticalMapReport& report);

@@ -129,32 +129,36 @@ CsvTables tables(const ForcedReport& r) {
   return {sweep};
 }
 
-std::string text(const ForcedReport& r) {
+std::string text(const ForcedReport& r, const ShownUnits& u) {
+  const ShownUnit beside = u.besideFrequency();
   std::string out = fmt::format(
-      "{}: response to a force along {} at {} in a fixed direction, shaft at {:g} rad/s\n",
-      r.system->title(), r.request.along, r.request.force, r.speed);
+      "{}: response to a force along {} at {} in a fixed direction, shaft at {:g} {}\n",
+      r.system->title(), r.request.along, r.request.force, u.speed.in(r.speed), u.speed.name);
   if (r.grows) {
     out += "  a mode is unstable at this speed: this response is never reached\n";
   }
   for (const std::size_t i : r.stations) {
     out += fmt::format(
         "  at {}, along {}: peaks\n"
-        "         rad/s          Hz  receptance, m/N  mobility, m/(N s)    lag, deg\n",
-        r.system->stations[i].name, r.request.along);
+        "{:>14} {:>11}  receptance, m/N  mobility, m/(N s) {:>11}\n",
+        r.system->stations[i].name, r.request.along, u.frequency.name, beside.name,
+        "lag, " + u.angle.name);
     const std::vector<std::size_t> peaks = peaksOf(r, i);
     for (const std::size_t k : peaks) {
       const Complex x = along(r, r.sweep[k], i);
       out += fmt::format("    {:>10.5g} {:>11.5g} {:>16.5g} {:>18.5g} {:>11.4g}\n",
-                         r.sweep[k].frequency, r.sweep[k].frequency / kTwoPi, std::abs(x),
-                         r.sweep[k].frequency * std::abs(x), -std::arg(x) / kDegree);
+                         u.frequency.in(r.sweep[k].frequency), beside.in(r.sweep[k].frequency),
+                         std::abs(x), r.sweep[k].frequency * std::abs(x), u.angle.in(-std::arg(x)));
     }
     if (peaks.empty()) {
       out += "    none in the range\n";
     }
   }
-  return out + fmt::format("  {} frequencies from {:.5g} to {:.5g} rad/s: --json, --csv\n",
-                           r.sweep.size(), r.sweep.empty() ? 0.0 : r.sweep.front().frequency,
-                           r.sweep.empty() ? 0.0 : r.sweep.back().frequency);
+  return out + fmt::format("  {} frequencies from {:.5g} to {:.5g} {}: --json, --csv\n",
+                           r.sweep.size(),
+                           r.sweep.empty() ? 0.0 : u.frequency.in(r.sweep.front().frequency),
+                           r.sweep.empty() ? 0.0 : u.frequency.in(r.sweep.back().frequency),
+                           u.frequency.name);
 }
 
 Figure figure(const ForcedReport& r) {

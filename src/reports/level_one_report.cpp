@@ -179,23 +179,26 @@ CsvTables tables(const LevelOneReport& r) {
            json(r)["stages"]}};
 }
 
-std::string text(const LevelOneReport& r) {
+std::string text(const LevelOneReport& r, const ShownUnits& u) {
+  const std::string& stiffness = u.stiffness.name;
   std::string out = fmt::format(
-      "{}: slowest decaying forward whirl at {:g} rad/s ({:.0f} rpm), cross-coupling at {}\n"
-      "    Q, N/m          log. decrement       rad/s\n",
-      r.system->title(), r.speed, r.speed / kRpm, r.station);
+      "{}: slowest decaying forward whirl at {:g} {} ({:.0f} {}), cross-coupling at {}\n"
+      "    {:<16}log. decrement {:>11}\n",
+      r.system->title(), u.speed.in(r.speed), u.speed.name, u.besideSpeed().in(r.speed),
+      u.besideSpeed().name, r.station, "Q, " + stiffness, u.frequency.name);
   const std::string beyond = beyondLine(r.system->tables(), r.speed, r.speed);
   for (std::size_t i = 0; i < r.rows.size(); i += 2) {
     const CrossCouplingRow& row = r.rows[i];
-    out += fmt::format("    {:<15.5g} {:>14.4g} {:>11.5g}\n", row.cross_coupling,
-                       row.mode.logDecrement() + 0.0, row.mode.dampedFrequency());
+    out += fmt::format("    {:<15.5g} {:>14.4g} {:>11.5g}\n", u.stiffness.in(row.cross_coupling),
+                       row.mode.logDecrement() + 0.0, u.frequency.in(row.mode.dampedFrequency()));
   }
   if (!r.whirlsUncoupled()) {
     out +=
         "  without cross-coupling all forward modes have a damping ratio above 0.7, which is no "
         "whirl:\n  the table begins at the first whirl\n";
   }
-  out += r.margin ? fmt::format("  Q_0, where it ceases to decay: {:.5g} N/m\n", *r.margin)
+  out += r.margin ? fmt::format("  Q_0, where it ceases to decay: {:.5g} {}\n",
+                                u.stiffness.in(*r.margin), stiffness)
                   : std::string("  Q_0, where it ceases to decay: none found\n");
   if (!r.applied) {
     return out + "  Q_A, expected of the stages: not known (--stage POWER DIAMETER WIDTH RATIO)\n" +
@@ -204,13 +207,14 @@ std::string text(const LevelOneReport& r) {
   for (std::size_t i = 0; i < r.expected.size(); ++i) {
     const Stage& stage = r.request.stages[i];
     out +=
-        fmt::format("    stage {:<3} {} {:.5g} W, {:.4g} m, {:.4g} m{}: {:.5g} N/m\n", i + 1,
-                    stage.axial ? "axial" : "centrifugal", stage.power, stage.diameter, stage.width,
+        fmt::format("    stage {:<3} {} {:.5g} W, {:.4g} {}, {:.4g} {}{}: {:.5g} {}\n", i + 1,
+                    stage.axial ? "axial" : "centrifugal", stage.power, u.length.in(stage.diameter),
+                    u.length.name, u.length.in(stage.width), u.length.name,
                     stage.axial ? "" : fmt::format(", density ratio {:.4g}", stage.density_ratio),
-                    r.expected[i]);
+                    u.stiffness.in(r.expected[i]), stiffness);
   }
-  out += fmt::format("  Q_A, all stages by Alford's formula as modified by API 617: {:.5g} N/m\n",
-                     *r.applied);
+  out += fmt::format("  Q_A, all stages by Alford's formula as modified by API 617: {:.5g} {}\n",
+                     u.stiffness.in(*r.applied), stiffness);
   if (r.at_applied) {
     out += fmt::format("    log. decrement there  {:.4g}\n", r.at_applied->mode.logDecrement());
   } else {

@@ -11,6 +11,7 @@
 #include "reports/csv_table.h"
 #include "reports/figure.h"
 #include "reports/rotor_systems.h"
+#include "reports/shown_units.h"
 
 namespace whirl_twin {
 
@@ -44,7 +45,7 @@ struct LevelOneReport {
 LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& request);
 
 Json json(const LevelOneReport& report);
-std::string text(const LevelOneReport& report);
+std::string text(const LevelOneReport& report, const ShownUnits& units = {});
 /// The decrement over the cross-coupling; the stages.
 CsvTables tables(const LevelOneReport& report);
 Figure figure(const LevelOneReport& report);

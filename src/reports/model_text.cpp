@@ -249,7 +249,8 @@ std::string newScene(const ModelInfo& model, const YAML::Node& example, const st
   lines.plain(fmt::format("# {}: {}", model.name, model.summary));
   lines.plain("#");
   lines.plain(
-      "# All values are in SI units: m, kg, s, rad, N. Keys in comments show their defaults: "
+      "# Values are in SI units (m, kg, s, rad, N) or have a unit (250 mm, 3000 rpm). Keys in "
+      "comments show their defaults: "
       "remove the");
   lines.plain("# comment sign to set them. `twin check FILE` prints all errors of the file,");
   lines.plain("# or what is modelled.");

@@ -13,6 +13,7 @@
 #include "reports/figure.h"
 #include "reports/rotor_record.h"
 #include "reports/rotor_systems.h"
+#include "reports/shown_units.h"
 #include "signal/ambient_modes.h"
 
 namespace whirl_twin {
@@ -54,7 +55,7 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
                         std::optional<double> speed, std::optional<double> limit);
 
 Json json(const ModesReport& report);
-std::string text(const ModesReport& report);
+std::string text(const ModesReport& report, const ShownUnits& units = {});
 /// The model's modes and their shapes, or those that were measured with the model's beside them.
 CsvTables tables(const ModesReport& report);
 /// The shapes of the `count` lowest modes of the model, in front of the shaft.

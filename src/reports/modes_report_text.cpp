@@ -100,20 +100,22 @@ Json measuredJson(const ModesReport& report, const ComparedMode& one) {
   return json;
 }
 
-std::string modelLine(const ModesReport& report, std::size_t place) {
+std::string modelLine(const ModesReport& report, std::size_t place, const ShownUnits& u) {
   const WhirlMode& mode = report.model[place];
   return fmt::format("  {:>3}  {:<9} {:>10.5g} {:>10.4g} {:>10.4g} {:>10.4g} {:>8.3f}\n", place + 1,
-                     name(mode.whirl), mode.dampedFrequency(), -mode.eigenvalue.real() + 0.0,
-                     mode.dampingRatio(), mode.logDecrement(), kappa(mode));
+                     name(mode.whirl), u.frequency.in(mode.dampedFrequency()),
+                     -mode.eigenvalue.real() + 0.0, mode.dampingRatio(), mode.logDecrement(),
+                     kappa(mode));
 }
 
-std::string modelText(const ModesReport& report) {
-  std::string out = "  mode  whirl          rad/s  decay 1/s      ratio   log dec.    kappa\n";
+std::string modelText(const ModesReport& report, const ShownUnits& u) {
+  std::string out = fmt::format("  mode  whirl{:>15}  decay 1/s      ratio   log dec.    kappa\n",
+                                u.frequency.name);
   for (std::size_t k = 0; k < report.model.size(); ++k) {
     if (!isWhirl(report.model[k]) && (k == 0 || isWhirl(report.model[k - 1]))) {
       out += "  no whirl, with a damping ratio above 0.7:\n";
     }
-    out += modelLine(report, k);
+    out += modelLine(report, k, u);
   }
   return report.model.empty()
              ? "  no oscillating mode\n"
@@ -122,20 +124,21 @@ std::string modelText(const ModesReport& report) {
                    "whirl;\n  of every station with --json and --csv\n";
 }
 
-std::string measuredText(const ModesReport& report, const ComparedMode& one) {
+std::string measuredText(const ModesReport& report, const ComparedMode& one, const ShownUnits& u) {
   const AmbientMode& mode = one.mode;
   const double factor = report.record->interval;
   const double decrement = mode.logDecrement();
   std::string out = fmt::format(
       "  {:<9} {:>18} {:>20} {:>20}\n", sense(mode),
-      interval(std::fabs(mode.frequency), factor * mode.frequency_deviation),
+      interval(u.frequency.in(std::fabs(mode.frequency)),
+               u.frequency.in(factor * mode.frequency_deviation)),
       interval(mode.decay_rate, factor * mode.decay_deviation),
       interval(decrement, factor * std::fabs(decrement / mode.decay_rate) * mode.decay_deviation));
   if (one.model) {
     const WhirlMode& model = report.model[*one.model];
     out +=
         fmt::format("    model {:<3} {:>12.5g} ({:+.2g} %) {:>13.4g} {:>19.4g}   shapes {:.3f}\n",
-                    *one.model + 1, model.dampedFrequency(),
+                    *one.model + 1, u.frequency.in(model.dampedFrequency()),
                     100.0 * (model.dampedFrequency() / std::fabs(mode.frequency) - 1.0),
                     -model.eigenvalue.real() + 0.0, model.logDecrement(), one.assurance);
   } else {
@@ -224,26 +227,29 @@ CsvTables tables(const ModesReport& report) {
   return {table};
 }
 
-std::string text(const ModesReport& report) {
+std::string text(const ModesReport& report, const ShownUnits& u) {
   std::string out = report.system->title();
   const std::string beyond = beyondLine(report.system->tables(), report.speed, report.speed);
   if (report.log.empty()) {
-    return out + fmt::format(": at {:g} rad/s\n", report.speed) + beyond + modelText(report);
+    return out + fmt::format(": at {:g} {}\n", u.speed.in(report.speed), u.speed.name) + beyond +
+           modelText(report, u);
   }
   if (report.record) {
     const AmbientRecord& record = *report.record;
     out += fmt::format(
-        ": {:.4g} s at {:.5g} rad/s, frequencies up to {:.4g} rad/s\n"
+        ": {:.4g} s at {:.5g} {}, frequencies up to {:.4g} {}\n"
         "  {:.3g} m rms synchronous motion removed, {:.3g} m rms remaining\n"
-        "  measured           rad/s            decay 1/s             log dec.    (95 %)\n",
-        record.duration, report.speed, record.limit, record.orders, record.vibration);
+        "  measured{:>16}            decay 1/s             log dec.    (95 %)\n",
+        record.duration, u.speed.in(report.speed), u.speed.name, u.frequency.in(record.limit),
+        u.frequency.name, record.orders, record.vibration, u.frequency.name);
   } else {
     out += fmt::format(": {}\n", report.log);
   }
-  out += joined(report.modes, [&](const ComparedMode& one) { return measuredText(report, one); });
+  out +=
+      joined(report.modes, [&](const ComparedMode& one) { return measuredText(report, one, u); });
   if (!report.not_seen.empty()) {
     out += "  of the model, not measured:\n";
-    out += joined(report.not_seen, [&](std::size_t k) { return modelLine(report, k); });
+    out += joined(report.not_seen, [&](std::size_t k) { return modelLine(report, k, u); });
   }
   return out + joined(report.notes, [](const auto& note) { return "  " + note + "\n"; }) + beyond;
 }

@@ -42,15 +42,22 @@ Json orbitRow(const RotorSystem& system, Json row, const Orbit& orbit, double sp
   return row;
 }
 
+/// The name of the unit of vibrations widens its columns.
+std::size_t moreColumns(const ShownUnits& u) {
+  return std::max<std::size_t>(1, u.vibration.name.size()) - 1;
+}
+
 std::string orbitText(const std::string& start, const Orbit& orbit, double phase_mark,
-                      const std::string& mark = "") {
+                      const ShownUnits& u, const std::string& mark = "") {
   constexpr double kRound = 1.0e-6;  // of a circle: how far the axes may be apart
   const bool circle = orbit.major() - orbit.minor() <= kRound * orbit.major();
-  return fmt::format("    {:<14} {:>11.5g} {:>11.5g} {:>13}  {:<9} {:>12.5g} {:>10.5g}{}\n", start,
-                     orbit.major(), orbit.minor(),
-                     circle ? "circle" : fmt::format("{:.5g}", orbit.inclination() / kDegree),
-                     name(orbit.direction()), std::abs(orbit.forward),
-                     phaseLag(orbit, phase_mark) / kDegree, mark);
+  const std::size_t more = moreColumns(u);
+  return fmt::format("    {:<14} {:>{}.5g} {:>{}.5g} {:>13}  {:<9} {:>{}.5g} {:>10.5g}{}\n", start,
+                     u.vibration.in(orbit.major()), 11 + more, u.vibration.in(orbit.minor()),
+                     11 + more,
+                     circle ? "circle" : fmt::format("{:.5g}", u.angle.in(orbit.inclination())),
+                     name(orbit.direction()), u.vibration.in(std::abs(orbit.forward)), 12 + more,
+                     u.angle.in(phaseLag(orbit, phase_mark)), mark);
 }
 
 std::vector<std::string> withOrbit(std::vector<std::string> columns) {
@@ -61,8 +68,14 @@ std::vector<std::string> withOrbit(std::vector<std::string> columns) {
   return columns;
 }
 
-constexpr const char* kOrbitHead =
-    "     major, m    minor, m  inclined, deg  direction forward, m   lag, deg\n";
+std::string orbitHead(const std::string& first, const ShownUnits& u) {
+  const std::string& m = u.vibration.name;
+  const std::size_t more = moreColumns(u);
+  return fmt::format("{:<16}{:>{}} {:>{}} {:>14}  direction {:>{}} {:>10}\n", "    " + first,
+                     "major, " + m, 13 + more, "minor, " + m, 11 + more,
+                     "inclined, " + u.angle.name, "forward, " + m, 10 + more,
+                     "lag, " + u.angle.name);
+}
 
 }  // namespace
 
@@ -131,7 +144,7 @@ CsvTables tables(const ResponseReport& r) {
            json(r)["peaks"]}};
 }
 
-std::string text(const ResponseReport& r) {
+std::string text(const ResponseReport& r, const ShownUnits& u) {
   constexpr std::size_t kRows = 20;
   const std::size_t stride = 1 + r.sweep.size() / kRows;
   const DataSpeeds data = r.system->tables();
@@ -141,16 +154,18 @@ std::string text(const ResponseReport& r) {
                        r.sweep.size());
   }
   for (const std::size_t i : r.stations) {
-    out += fmt::format("  at {}\n    speed, rad/s{}", r.system->stations[i].name, kOrbitHead);
+    out += fmt::format("  at {}\n{}", r.system->stations[i].name,
+                       orbitHead("speed, " + u.speed.name, u));
     for (std::size_t k = 0; k < r.sweep.size(); k += stride) {
-      out += orbitText(fmt::format("{:.6g}", r.sweep[k].speed), r.sweep[k].orbits[i],
-                       r.system->dynamics->phaseMark(), beyondMark(data, r.sweep[k].speed));
+      out += orbitText(fmt::format("{:.6g}", u.speed.in(r.sweep[k].speed)), r.sweep[k].orbits[i],
+                       r.system->dynamics->phaseMark(), u, beyondMark(data, r.sweep[k].speed));
     }
   }
   out += fmt::format("  peaks at {}\n", r.system->stations.front().name);
   for (const CriticalSpeed& peak : r.peaks) {
-    out += fmt::format("    {:.6g} rad/s: {:.5g} m, {}, amplification {}{}\n", peak.speed,
-                       peak.peak, peak.forward ? "forward" : "backward",
+    out += fmt::format("    {:.6g} {}: {:.5g} {}, {}, amplification {}{}\n", u.speed.in(peak.speed),
+                       u.speed.name, u.vibration.in(peak.peak), u.vibration.name,
+                       peak.forward ? "forward" : "backward",
                        defined(peak.amplification_factor, "-"), beyondMark(data, peak.speed));
   }
   return out + (r.peaks.empty() ? "    none in the range\n" : "") +
@@ -189,12 +204,13 @@ CsvTables tables(const OrbitReport& r) {
   return {orbits};
 }
 
-std::string text(const OrbitReport& r) {
-  std::string out = fmt::format("{}: orbits at {:g} rad/s\n    station     {}", r.system->title(),
-                                r.response.speed, kOrbitHead);
+std::string text(const OrbitReport& r, const ShownUnits& u) {
+  std::string out =
+      fmt::format("{}: orbits at {:g} {}\n{}", r.system->title(), u.speed.in(r.response.speed),
+                  u.speed.name, orbitHead("station", u));
   for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
     out += orbitText(r.system->stations[i].name, r.response.orbits[i],
-                     r.system->dynamics->phaseMark());
+                     r.system->dynamics->phaseMark(), u);
   }
   return out + beyondLine(r.system->tables(), r.response.speed, r.response.speed);
 }

@@ -12,6 +12,7 @@
 #include "reports/csv_table.h"
 #include "reports/figure.h"
 #include "reports/rotor_systems.h"
+#include "reports/shown_units.h"
 
 namespace whirl_twin {
 
@@ -27,7 +28,7 @@ ResponseReport responseReport(const RotorSystem& system, const SpeedRange& range
                               const std::optional<std::string>& station);
 
 Json json(const ResponseReport& report);
-std::string text(const ResponseReport& report);
+std::string text(const ResponseReport& report, const ShownUnits& units = {});
 /// Every speed of the sweep, at each station; peaks.
 CsvTables tables(const ResponseReport& report);
 /// Bode plot, amplitude and phase lag over speed, and polar plot below.
@@ -41,7 +42,7 @@ struct OrbitReport {
 OrbitReport orbitReport(const RotorSystem& system, double speed);
 
 Json json(const OrbitReport& report);
-std::string text(const OrbitReport& report);
+std::string text(const OrbitReport& report, const ShownUnits& units = {});
 CsvTables tables(const OrbitReport& report);
 Figure figure(const OrbitReport& report);
 
@@ -68,7 +69,7 @@ struct ForcedReport {
 ForcedReport forcedReport(const RotorSystem& system, const ForcedRequest& request);
 
 Json json(const ForcedReport& report);
-std::string text(const ForcedReport& report);
+std::string text(const ForcedReport& report, const ShownUnits& units = {});
 /// Every frequency at each station.
 CsvTables tables(const ForcedReport& report);
 /// Receptance, mobility and phase along the force.

@@ -72,9 +72,10 @@ std::optional<LargestSag> largestSag(const Dynamics& dynamics, const Eigen::Vect
   return largest;
 }
 
-std::string text(const LargestSag& sag) {
-  return fmt::format("{:.6g} m at {} (x {:.6g} m, y {:.6g} m)", std::hypot(sag.x, sag.y),
-                     sag.station, sag.x + 0.0, sag.y + 0.0);
+std::string text(const LargestSag& sag, const ShownUnits& units) {
+  const ShownUnit& m = units.length;
+  return fmt::format("{:.6g} {} at {} (x {:.6g} {}, y {:.6g} {})", m.in(std::hypot(sag.x, sag.y)),
+                     m.name, sag.station, m.in(sag.x) + 0.0, m.name, m.in(sag.y) + 0.0, m.name);
 }
 
 Json json(const std::optional<LargestSag>& sag) {

@@ -10,6 +10,7 @@
 #include "mechanics/dynamics.h"
 #include "reports/csv_table.h"
 #include "reports/output.h"
+#include "reports/shown_units.h"
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
@@ -37,7 +38,7 @@ struct LargestSag {
 std::optional<LargestSag> largestSag(const Dynamics& dynamics, const Eigen::VectorXd& q);
 
 /// "0.00098 m at disc (x 0 m, y -0.00098 m)"
-std::string text(const LargestSag& sag);
+std::string text(const LargestSag& sag, const ShownUnits& units = {});
 Json json(const std::optional<LargestSag>& sag);
 
 }  // namespace whirl_twin

@@ -20,6 +20,7 @@
 #include "reports/csv_table.h"
 #include "reports/output.h"
 #include "reports/rotor_sheet.h"
+#include "reports/shown_units.h"
 #include "scene/built_scene.h"
 #include "scene/built_system.h"
 
@@ -79,7 +80,7 @@ SystemAnalysis analyze(const BuiltScene& scene, std::size_t system,
                        std::size_t modes = kLowestModes);
 
 Json json(const SystemAnalysis& analysis);
-std::string text(const SystemAnalysis& analysis);
+std::string text(const SystemAnalysis& analysis, const ShownUnits& units = {});
 /// Modes, eigenvalues, critical speeds, and the numbers that stability is lost by.
 CsvTables tables(const SystemAnalysis& analysis);
 

@@ -57,10 +57,11 @@ std::string values(const SystemAnalysis& a, const Eigen::VectorXd& x, int deriva
   return out;
 }
 
-std::string startText(const SystemAnalysis& a) {
+std::string startText(const SystemAnalysis& a, const ShownUnits& u) {
   std::string out = fmt::format("  at t = {:g} s", a.moment.time);
   if (a.speed) {
-    out += fmt::format(", shaft at {:g} rad/s ({:.4g} rpm)", *a.speed, *a.speed / kRpm);
+    out += fmt::format(", shaft at {:g} {} ({:.4g} {})", u.speed.in(*a.speed), u.speed.name,
+                       u.besideSpeed().in(*a.speed), u.besideSpeed().name);
   }
   out += fmt::format("\n{}    position        {}\n",
                      a.speed ? beyondLine(a.tables, *a.speed, *a.speed) : std::string(),
@@ -124,11 +125,12 @@ std::string dryFrictionText(const SystemAnalysis& a) {
   return out;
 }
 
-std::string equilibriaText(const SystemAnalysis& a) {
+std::string equilibriaText(const SystemAnalysis& a, const ShownUnits& u) {
   const bool moving = a.cyclic.any() && !a.dynamics->linear();
-  std::string out = a.speed  ? fmt::format("  equilibria at {:g} rad/s\n", *a.speed)
-                    : moving ? std::string("  steady motions\n")
-                             : std::string("  equilibria\n");
+  std::string out =
+      a.speed  ? fmt::format("  equilibria at {:g} {}\n", u.speed.in(*a.speed), u.speed.name)
+      : moving ? std::string("  steady motions\n")
+               : std::string("  equilibria\n");
   for (const Equilibrium& e : a.equilibria) {
     out += fmt::format("    {}{}: {}\n", values(a, e.q, 0), steadyRates(a, e.v),
                        verdictText(e.stability.routh.verdict));
@@ -141,16 +143,19 @@ std::string equilibriaText(const SystemAnalysis& a) {
                     : "    none found\n");
 }
 
-std::string modesText(const SystemAnalysis& a) {
+std::string modesText(const SystemAnalysis& a, const ShownUnits& u) {
+  const ShownUnit beside = u.besideFrequency();
   const Stability& s = a.reduced_stability;
   const std::size_t count = s.natural_frequencies.size();
   const bool few = a.coordinates.size() <= kFewCoordinates;
   const std::size_t shown = few || s.omitted > 0 ? count : std::min(count, kLowestModes);
-  std::string out = "  modes           rad/s          Hz   damping ratio   log decrement\n";
+  std::string out = fmt::format("  modes {:>15} {:>11}   damping ratio   log decrement\n",
+                                u.frequency.name, beside.name);
   for (std::size_t i = 0; i < shown; ++i) {
-    out += fmt::format("    {:<6} {:>12.6g} {:>11.6g} {:>15.6g} {:>15}\n", i + 1,
-                       s.natural_frequencies[i], s.natural_frequencies[i] / kTwoPi,
-                       s.damping_ratios[i], defined(logDecrement(s.damping_ratios[i]), "-"));
+    out +=
+        fmt::format("    {:<6} {:>12.6g} {:>11.6g} {:>15.6g} {:>15}\n", i + 1,
+                    u.frequency.in(s.natural_frequencies[i]), beside.in(s.natural_frequencies[i]),
+                    s.damping_ratios[i], defined(logDecrement(s.damping_ratios[i]), "-"));
   }
   if (shown < count) {
     out += fmt::format("    and {} more (--json)\n", count - shown);
@@ -184,7 +189,7 @@ std::string decrementText(const SystemAnalysis& a) {
                      moving == a.coordinates.end() ? "m" : moving->unit, of.coordinate);
 }
 
-std::string stabilityText(const SystemAnalysis& a) {
+std::string stabilityText(const SystemAnalysis& a, const ShownUnits& u) {
   const Stability& s = a.reduced_stability;
   if (!a.at_equilibrium && isJudgedOnlyAtRest(*a.dynamics)) {
     return fmt::format("  stability: uncertain: {}\n", a.uncertain_because);
@@ -219,35 +224,38 @@ std::string stabilityText(const SystemAnalysis& a) {
   out += decrementText(a);
   if (a.speed) {
     out += fmt::format("    unstable above  {}\n",
-                       a.instability_speed ? fmt::format("{:.6g} rad/s{}", *a.instability_speed,
-                                                         beyondMark(a.tables, *a.instability_speed))
-                                           : std::string("no speed found"));
+                       a.instability_speed
+                           ? fmt::format("{:.6g} {}{}", u.speed.in(*a.instability_speed),
+                                         u.speed.name, beyondMark(a.tables, *a.instability_speed))
+                           : std::string("no speed found"));
   }
   return out;
 }
 
-std::string criticalSpeedsText(const SystemAnalysis& a) {
+std::string criticalSpeedsText(const SystemAnalysis& a, const ShownUnits& u) {
+  const ShownUnit beside = u.besideSpeed();
   std::string beyond =
       a.critical_speeds_beyond == 0
           ? ""
           : fmt::format(
-                "    {} more left out: the reduced-order rotor is valid only up to {:g} rad/s\n",
-                a.critical_speeds_beyond, a.highest_speed);
+                "    {} more left out: the reduced-order rotor is valid only up to {:g} {}\n",
+                a.critical_speeds_beyond, u.speed.in(a.highest_speed), u.speed.name);
   if (std::isfinite(a.critical_speeds_to)) {
-    beyond += fmt::format("    searched up to {:.6g} rad/s\n", a.critical_speeds_to);
+    beyond += fmt::format("    searched up to {:.6g} {}\n", u.speed.in(a.critical_speeds_to),
+                          u.speed.name);
   }
   if (a.critical_speeds.empty()) {
     return a.dynamics->isRotor() ? "  critical speeds: none\n" + beyond : "";
   }
   std::string out = fmt::format(
-      "  critical speeds seen from {:g} rad/s\n"
-      "           rad/s         rpm  direction   amplification      margin    required\n",
-      *a.speed);
+      "  critical speeds seen from {:g} {}\n"
+      "{:>16} {:>11}  direction   amplification      margin    required\n",
+      u.speed.in(*a.speed), u.speed.name, u.speed.name, beside.name);
   for (const auto& c : a.critical_speeds) {
     const bool too_near = c.separation_margin < c.required_separation_margin;
     out += fmt::format(
-        "    {:>12.6g} {:>11.6g}  {:<9} {:>15} {:>9} % {:>9.4g} %{}{}\n", c.speed, c.speed / kRpm,
-        c.direction,
+        "    {:>12.6g} {:>11.6g}  {:<9} {:>15} {:>9} % {:>9.4g} %{}{}\n", u.speed.in(c.speed),
+        beside.in(c.speed), c.direction,
         std::isinf(c.amplification_factor) ? "undamped" : defined(c.amplification_factor, "-"),
         defined(c.separation_margin, "-"), c.required_separation_margin,
         too_near ? "  too near" : "", beyondMark(a.tables, c.speed));
@@ -260,14 +268,15 @@ std::string criticalSpeedsText(const SystemAnalysis& a) {
   return out + beyond;
 }
 
-std::string crossCouplingText(const SystemAnalysis& a) {
+std::string crossCouplingText(const SystemAnalysis& a, const ShownUnits& u) {
   if (!a.cross_coupling) {
     return "";
   }
-  return fmt::format("  cross-coupling margin at {}: {}\n", a.cross_coupling->station,
-                     a.cross_coupling->stiffness
-                         ? fmt::format("{:.6g} N/m", *a.cross_coupling->stiffness)
-                         : std::string("none found, all forward modes stay stable"));
+  return fmt::format(
+      "  cross-coupling margin at {}: {}\n", a.cross_coupling->station,
+      a.cross_coupling->stiffness
+          ? fmt::format("{:.6g} {}", u.stiffness.in(*a.cross_coupling->stiffness), u.stiffness.name)
+          : std::string("none found, all forward modes stay stable"));
 }
 
 /// "10 N s/m"; "0.5" of a number without a unit.
@@ -334,11 +343,12 @@ std::string spreadMarginText(const SystemAnalysis& a) {
       margin.stable_throughout ? "; robustly stable (Kharitonov)" : "");
 }
 
-std::string steadySpeedsText(const SystemAnalysis& a) {
+std::string steadySpeedsText(const SystemAnalysis& a, const ShownUnits& u) {
   std::string out = a.steady_speeds.empty() ? "" : "  steady speeds with its motor\n";
   for (const SteadySpeed& steady : a.steady_speeds) {
-    out += fmt::format("    {:.6g} rad/s ({:.4g} rpm), torque {:.4g} N m: {}{}\n", steady.speed,
-                       steady.speed / kRpm, steady.torque, steady.stable ? "stable" : "unstable",
+    out += fmt::format("    {:.6g} {} ({:.4g} {}), torque {:.4g} N m: {}{}\n",
+                       u.speed.in(steady.speed), u.speed.name, u.besideSpeed().in(steady.speed),
+                       u.besideSpeed().name, steady.torque, steady.stable ? "stable" : "unstable",
                        beyondMark(a.tables, steady.speed));
   }
   return out;
@@ -346,15 +356,15 @@ std::string steadySpeedsText(const SystemAnalysis& a) {
 
 }  // namespace
 
-std::string text(const SystemAnalysis& a) {
+std::string text(const SystemAnalysis& a, const ShownUnits& u) {
   std::string out = fmt::format("{}: {}, {}\n", a.name, a.model->name, a.model->summary);
-  out += startText(a) + (a.sheet ? text(*a.sheet) : "") + cyclicText(a) + dryFrictionText(a) +
-         equilibriaText(a);
+  out += startText(a, u) + (a.sheet ? text(*a.sheet) : "") + cyclicText(a) + dryFrictionText(a) +
+         equilibriaText(a, u);
   out += fmt::format("  linearized about {}: {}{}\n",
                      a.at_equilibrium ? "the operating point" : "the initial state",
                      values(a, a.about, 0),
                      a.at_equilibrium ? steadyRates(a, a.about_v) : ", " + values(a, a.about_v, 1));
-  out += a.sag ? fmt::format("  sag             {}\n", text(*a.sag)) : "";
+  out += a.sag ? fmt::format("  sag             {}\n", text(*a.sag, u)) : "";
   out += a.coordinates.size() <= kFewCoordinates
              ? matrixText("mass", a.linearization.mass) +
                    matrixText("damping", a.linearization.damping) +
@@ -362,8 +372,9 @@ std::string text(const SystemAnalysis& a) {
                    matrixText("stiffness", a.linearization.stiffness) +
                    matrixText("circulatory", a.linearization.circulatory)
              : "    its matrices    --json\n";
-  return out + modesText(a) + stabilityText(a) + criticalSpeedsText(a) + crossCouplingText(a) +
-         parameterMarginsText(a) + spreadMarginText(a) + steadySpeedsText(a);
+  return out + modesText(a, u) + stabilityText(a, u) + criticalSpeedsText(a, u) +
+         crossCouplingText(a, u) + parameterMarginsText(a) + spreadMarginText(a) +
+         steadySpeedsText(a, u);
 }
 
 }  // namespace whirl_twin

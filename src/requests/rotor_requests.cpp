@@ -35,15 +35,15 @@ std::shared_ptr<const SceneRotors> rotorsOf(const Scene& scene,
 
 /// `make` gives the report of a rotor that json(), text() and tables() take, `draw` its figure.
 template <class Make, class Draw>
-Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const Make& make,
-                       const Draw& draw) {
+Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const ShownUnits& units,
+                       const Make& make, const Draw& draw) {
   Document document;
   document.json["scene"] = of->scene.scene.name;
   for (const RotorSystem& rotor : of->rotors) {
     const auto report = std::make_shared<const decltype(make(rotor))>(make(rotor));
     document.json["systems"][rotor.name] = json(*report);
     append(document.tables, rotor.name, tables(*report));
-    document.text += (document.text.empty() ? "" : "\n") + text(*report);
+    document.text += (document.text.empty() ? "" : "\n") + text(*report, units);
     document.drawings.push_back(
         {rotor.name, [of, report, draw] { return figureJson(draw(*report)); }});
   }
@@ -51,8 +51,9 @@ Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const Make&
 }
 
 template <class Make>
-Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const Make& make) {
-  return rotorDocument(of, make, [](const auto& report) { return figure(report); });
+Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const ShownUnits& units,
+                       const Make& make) {
+  return rotorDocument(of, units, make, [](const auto& report) { return figure(report); });
 }
 
 void requireNumbers(const CampbellReportRequest& request) {
@@ -83,7 +84,7 @@ void requireModesUse(const ModesRequest& request) {
 }  // namespace
 
 Document campbellDocument(const Scene& scene, const CampbellReportRequest& request,
-                          WorkProgress& progress) {
+                          WorkProgress& progress, const ShownUnits& units) {
   requireNumbers(request);
   const auto of = rotorsOf(scene, request.system);
   AskedCost cost;
@@ -94,7 +95,7 @@ Document campbellDocument(const Scene& scene, const CampbellReportRequest& reque
   const auto speeds = static_cast<std::int64_t>(of->rotors.size()) * request.range.points;
   progress.begin(cost.cause, speeds, request.insist);
   std::int64_t before = 0;  // speeds of the rotors that are done
-  Document document = rotorDocument(of, [&](const RotorSystem& rotor) {
+  Document document = rotorDocument(of, units, [&](const RotorSystem& rotor) {
     CampbellReport one = campbellReport(
         rotor, request.range.of(rotor), request.harmonics, static_cast<std::size_t>(request.modes),
         [&](std::size_t done) { progress.show(before + static_cast<std::int64_t>(done)); });
@@ -105,27 +106,30 @@ Document campbellDocument(const Scene& scene, const CampbellReportRequest& reque
   return document;
 }
 
-Document responseDocument(const Scene& scene, const ResponseRequest& request) {
+Document responseDocument(const Scene& scene, const ResponseRequest& request,
+                          const ShownUnits& units) {
   const auto of = rotorsOf(scene, request.system);
   if (request.force) {
     ForcedRequest force = *request.force;
     force.from = request.range.from;
     force.to = request.range.to;
     force.points = request.range.points;
-    return rotorDocument(of, [&](const RotorSystem& rotor) { return forcedReport(rotor, force); });
+    return rotorDocument(of, units,
+                         [&](const RotorSystem& rotor) { return forcedReport(rotor, force); });
   }
-  return rotorDocument(of, [&](const RotorSystem& rotor) {
+  return rotorDocument(of, units, [&](const RotorSystem& rotor) {
     tell(costOfResponse(rotor.name, rotor.dynamics->dof(), request.range.points), request.insist);
     return responseReport(rotor, request.range.of(rotor), request.station);
   });
 }
 
-Document orbitDocument(const Scene& scene, const std::optional<std::string>& system, double speed) {
-  return rotorDocument(rotorsOf(scene, system),
+Document orbitDocument(const Scene& scene, const std::optional<std::string>& system, double speed,
+                       const ShownUnits& units) {
+  return rotorDocument(rotorsOf(scene, system), units,
                        [&](const RotorSystem& rotor) { return orbitReport(rotor, speed); });
 }
 
-Document modesDocument(const Scene& scene, const ModesRequest& request) {
+Document modesDocument(const Scene& scene, const ModesRequest& request, const ShownUnits& units) {
   requireModesUse(request);
   const auto of = rotorsOf(scene, request.system);
   if (request.measured && of->rotors.size() > 1) {
@@ -139,10 +143,9 @@ Document modesDocument(const Scene& scene, const ModesRequest& request) {
                              request.speed, request.limit)
                : modesReport(rotor, request.speed.value_or(rotor.highest_speed));
   };
-  Document document = rotorDocument(
-      of, report, [count = static_cast<std::size_t>(request.modes)](const ModesReport& modes) {
-        return figure(modes, count);
-      });
+  Document document = rotorDocument(of, units, report,
+                                    [count = static_cast<std::size_t>(request.modes)](
+                                        const ModesReport& modes) { return figure(modes, count); });
   if (request.measured) {  // the shapes drawn are those of the model
     document.drawings.clear();
   }
@@ -150,14 +153,14 @@ Document modesDocument(const Scene& scene, const ModesRequest& request) {
 }
 
 Document stabilityDocument(const Scene& scene, const std::optional<std::string>& system,
-                           const LevelOneRequest& request) {
-  return rotorDocument(rotorsOf(scene, system),
+                           const LevelOneRequest& request, const ShownUnits& units) {
+  return rotorDocument(rotorsOf(scene, system), units,
                        [&](const RotorSystem& rotor) { return levelOneReport(rotor, request); });
 }
 
 Document mapDocument(const Scene& scene, const std::optional<std::string>& system,
-                     const CriticalMapRequest& request) {
-  return rotorDocument(rotorsOf(scene, system),
+                     const CriticalMapRequest& request, const ShownUnits& units) {
+  return rotorDocument(rotorsOf(scene, system), units,
                        [&](const RotorSystem& rotor) { return criticalMapReport(rotor, request); });
 }
 

@@ -10,6 +10,7 @@
 #include "reports/level_one_report.h"
 #include "reports/response_report.h"
 #include "reports/rotor_systems.h"
+#include "reports/shown_units.h"
 #include "reports/unbalance_report.h"
 #include "requests/document.h"
 #include "requests/work_progress.h"
@@ -20,7 +21,7 @@ namespace whirl_twin {
 
 // `system`: the one rotor that is reported on; none: all of the scene. Every document has the
 // scene's name and, by its name, each of them. Errors name the options of the commands. All throw
-// InputError, for a scene without rotors too.
+// InputError, for a scene without rotors too. `units` are those of the text.
 
 struct CampbellReportRequest {
   std::optional<std::string> system;
@@ -30,7 +31,7 @@ struct CampbellReportRequest {
   bool insist = false;
 };
 Document campbellDocument(const Scene& scene, const CampbellReportRequest& request,
-                          WorkProgress& progress);
+                          WorkProgress& progress, const ShownUnits& units = {});
 
 struct ResponseRequest {
   std::optional<std::string> system;
@@ -40,10 +41,12 @@ struct ResponseRequest {
   std::optional<ForcedRequest> force;
   bool insist = false;
 };
-Document responseDocument(const Scene& scene, const ResponseRequest& request);
+Document responseDocument(const Scene& scene, const ResponseRequest& request,
+                          const ShownUnits& units = {});
 
 /// `speed` [rad/s], of the shaft.
-Document orbitDocument(const Scene& scene, const std::optional<std::string>& system, double speed);
+Document orbitDocument(const Scene& scene, const std::optional<std::string>& system, double speed,
+                       const ShownUnits& units = {});
 
 struct ModesRequest {
   std::optional<std::string> system;
@@ -52,13 +55,14 @@ struct ModesRequest {
   int modes = 6;                        ///< that are drawn
   std::string lcm_prefix = kDefaultLcmPrefix;
 };
-Document modesDocument(const Scene& scene, const ModesRequest& request);
+Document modesDocument(const Scene& scene, const ModesRequest& request,
+                       const ShownUnits& units = {});
 
 Document stabilityDocument(const Scene& scene, const std::optional<std::string>& system,
-                           const LevelOneRequest& request);
+                           const LevelOneRequest& request, const ShownUnits& units = {});
 
 Document mapDocument(const Scene& scene, const std::optional<std::string>& system,
-                     const CriticalMapRequest& request);
+                     const CriticalMapRequest& request, const ShownUnits& units = {});
 
 struct MeasuredBalanceRequest {
   std::optional<std::string> system;

@@ -137,7 +137,8 @@ Document analyzeDocument(Scene scene, const AnalyzeRequest& request, WorkProgres
     all["systems"][analysis.name] = json(analysis);
     all["systems"][analysis.name]["methods"] = json(methods, analysis);
     append(document.tables, analysis.name, tables(analysis));
-    document.text += (document.text.empty() ? "" : "\n") + text(analysis) + text(methods, analysis);
+    document.text += (document.text.empty() ? "" : "\n") + text(analysis, request.units) +
+                     text(methods, analysis);
   }
   if (!scene.controllers.empty()) {
     const LoopReport loops = loopReport(scene);

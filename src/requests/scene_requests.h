@@ -6,6 +6,7 @@
 #include <string>
 
 #include "analysis/stability.h"
+#include "reports/shown_units.h"
 #include "requests/document.h"
 #include "requests/work_progress.h"
 #include "scene/scene.h"
@@ -19,6 +20,7 @@ struct AnalyzeRequest {
   bool all_parameters = false;    ///< instability points also where their search takes minutes
   std::string modes = std::to_string(kLowestModes);  ///< as typed: a number or "all"
   bool insist = false;
+  ShownUnits units = {};  ///< of the text
 };
 /// Throws InputError, and RunFailure for a system that stops before the time `at`.
 Document analyzeDocument(Scene scene, const AnalyzeRequest& request, WorkProgress& progress);

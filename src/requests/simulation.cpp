@@ -30,7 +30,7 @@ Simulation::Simulation(const SimulationPlan& plan)
       stopped_(plan.scene.systems.size()) {
   twin_.buildEnsembles();
   if (plan_.checkpoint || plan_.resume) {
-    checkpoint_.scene = sceneLines(YAML::LoadFile(plan_.path), twin_);
+    checkpoint_.scene = sceneLines(plan_.tree, twin_);
   }
   if (plan_.resume) {
     resumeFrom(*plan_.resume);

@@ -9,6 +9,7 @@
 #include "reports/output.h"
 #include "reports/sample_writer.h"
 #include "requests/run_watches.h"
+#include "requests/scene_argument.h"
 #include "requests/work_progress.h"
 #include "twin/checkpoint.h"
 #include "twin/measurements.h"
@@ -18,7 +19,7 @@ namespace whirl_twin {
 
 /// The arguments of `twin simulate`.
 struct SimulationRequest {
-  std::string scene;  ///< path
+  SceneArgument scene;
   std::optional<std::string> system;
   std::optional<std::string> duration;  ///< [s], as typed
   std::optional<std::string> step;      ///< [s], as typed
@@ -41,7 +42,8 @@ struct SimulationPlan {
   std::int64_t steps = 0;
   std::int64_t stride = 1;                ///< steps from one sample to the next
   bool insist = false;                    ///< however long it takes
-  std::string path;                       ///< of the scene
+  YAML::Node tree;                        ///< of the scene's file, with its changes
+  std::string source;                     ///< the absolute path of the file, for logs
   std::optional<std::string> checkpoint;  ///< path for the state of the run
   std::optional<std::string> resume;      ///< path of a checkpoint to resume from
 

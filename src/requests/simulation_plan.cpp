@@ -12,11 +12,9 @@
 #include "reports/asked_cost.h"
 #include "reports/rotor_systems.h"
 #include "requests/durations.h"
-#include "requests/shipped_scenes.h"
 #include "requests/simulation.h"
 #include "scene/drive_reader.h"
 #include "scene/model_context.h"
-#include "scene/scene_reader.h"
 #include "scene/system_setup.h"
 
 namespace whirl_twin {
@@ -90,9 +88,10 @@ std::vector<SensorSpec> selectedSensors(const Scene& scene, const std::string& n
 }  // namespace
 
 SimulationPlan planSimulation(const SimulationRequest& request) {
-  const std::string path = scenePath(request.scene);
-  SimulationPlan plan = planSimulation(readSceneFile(path), request);
-  plan.path = path;
+  const SceneTree scene(request.scene);
+  SimulationPlan plan = planSimulation(scene.scene(), request);
+  plan.tree = scene.tree();
+  plan.source = scene.absoluteSource();
   return plan;
 }
 

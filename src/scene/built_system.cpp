@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "models/model_registry.h"
+#include "scene/error_list.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_limits.h"
 #include "scene/parameter_paths.h"
@@ -95,7 +96,7 @@ SharedSystem BuiltSystem::with(const std::vector<std::string>& paths,
     }
   }
   if (!diagnostics.all().empty()) {
-    throw InputError(fmt::format("{}", fmt::join(diagnostics.all(), "\n")));
+    throw InputError(errorList(diagnostics.all()));
   }
   return next;
 }

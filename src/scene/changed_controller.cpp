@@ -6,6 +6,7 @@
 #include "controllers/controller_registry.h"
 #include "messages/input_error.h"
 #include "scene/controller_reader.h"
+#include "scene/error_list.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_paths.h"
 
@@ -48,7 +49,7 @@ ChangedController withParameters(const Scene& scene, const ControllerSpec& contr
     }
   }
   if (!diagnostics.all().empty()) {
-    throw InputError(fmt::format("{}", fmt::join(diagnostics.all(), "\n")));
+    throw InputError(errorList(diagnostics.all()));
   }
   return changed;
 }

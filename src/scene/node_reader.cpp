@@ -9,64 +9,91 @@
 #include "messages/names.h"
 #include "messages/units.h"
 #include "scene/parameter_limits.h"
+#include "scene/written_quantity.h"
 
 namespace whirl_twin {
 
-namespace {
-
-/// A number and its suffix; nothing unless the text begins with a number.
-std::optional<std::pair<double, std::string>> apart(const std::string& text) {
+std::optional<WrittenQuantity> writtenQuantity(const std::string& text) {
   const char* first = text.data();
   const char* const last = first + text.size();
   if (first != last && *first == '+' && last - first > 1 && first[1] != '-') {
     ++first;
   }
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(first, last, value);
-  if (error != std::errc() || !std::isfinite(value)) {
+  WrittenQuantity written;
+  const auto [end, error] = std::from_chars(first, last, written.value);
+  if (error != std::errc() || !std::isfinite(written.value)) {
     return std::nullopt;
   }
+  written.number.assign(first, end);
   const std::size_t rest = text.find_first_not_of(' ', static_cast<std::size_t>(end - text.data()));
-  return std::pair(value, rest == std::string::npos ? std::string() : text.substr(rest));
+  written.unit = rest == std::string::npos ? "" : text.substr(rest);
+  return written;
 }
 
-}  // namespace
-
 std::optional<double> parseNumber(const std::string& text) {
-  const auto parts = apart(text);
-  return parts && parts->second.empty() && text.back() != ' ' ? std::optional<double>(parts->first)
-                                                              : std::nullopt;
+  const auto written = writtenQuantity(text);
+  return written && written->unit.empty() && text.back() != ' '
+             ? std::optional<double>(written->value)
+             : std::nullopt;
 }
 
 std::optional<double> parseQuantity(const std::string& text, const std::string& unit) {
-  const auto parts = apart(text);
-  if (!parts || (!parts->second.empty() && !isUnit(parts->second))) {
+  const auto written = writtenQuantity(text);
+  if (!written || (!written->unit.empty() && !isUnit(written->unit))) {
     return std::nullopt;
   }
-  const double scale = unitScale(parts->second, unit);
-  const double value = parts->first * scale;
+  const double scale = unitScale(written->unit, unit);
+  const double value = written->value * scale;
   return scale != 0.0 && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
+std::string unitDiagnostic(const std::string& text, const std::string& unit) {
+  const auto written = writtenQuantity(text);
+  if (!written || written->unit.empty()) {
+    return "";
+  }
+  const std::string& found = written->unit;
+  if (found.size() > 1 && found[0] == ',' && found[1] >= '0' && found[1] <= '9') {
+    return ": the decimal sign is a point";
+  }
+  const bool known = isUnit(found);
+  if (known && unitScale(found, unit) != 0.0) {
+    return "";
+  }
+  const std::string meant = unitMeant(found, unit);
+  const std::string remedy = meant.empty() ? "" : fmt::format("; write '{}'", meant);
+  if (!known) {
+    return ": unknown unit " + inQuotes(found) + remedy;
+  }
+  return unit == "-" || unit.rfind("of ", 0) == 0
+             ? ": the value is dimensionless"
+             : fmt::format(": {} cannot be converted to {}{}", inQuotes(found), unit, remedy);
+}
+
 std::string unitDiagnostic(const YAML::Node& node, const std::string& unit) {
-  const auto parts = apart(node.IsScalar() ? node.Scalar() : "");
-  if (!parts || parts->second.empty()) {
-    return "";
-  }
-  if (!isUnit(parts->second)) {
-    return ": unknown unit " + inQuotes(parts->second);
-  }
-  if (unitScale(parts->second, unit) != 0.0) {
-    return "";
-  }
-  return unit == "-" ? ": the value is dimensionless"
-                     : fmt::format(": {} cannot be converted to {}", inQuotes(parts->second), unit);
+  return node.IsScalar() ? unitDiagnostic(node.Scalar(), unit) : "";
 }
 
 void Diagnostics::add(const std::string& key, const std::string& text) {
   all_.push_back(key.empty() ? fmt::format("{}: {}", source_, text)
                              : fmt::format("{}: {}: {}", source_, printable(key), text));
 }
+
+namespace {
+
+constexpr std::size_t kMaxKeysShown = 5;
+
+/// Several keys and none of those known.
+bool isAnotherFile(const YAML::Node& node, const std::vector<std::string>& known) {
+  return !known.empty() && node.size() > 1 &&
+         std::none_of(node.begin(), node.end(), [&](const auto& entry) {
+           return !entry.first.IsScalar() ||
+                  std::find(known.begin(), known.end(), entry.first.Scalar()) != known.end() ||
+                  !nearestName(entry.first.Scalar(), known).empty();
+         });
+}
+
+}  // namespace
 
 std::string shown(const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) {
@@ -84,6 +111,18 @@ MapReader::MapReader(const YAML::Node& node, std::string key, const std::vector<
     : key_(std::move(key)), diagnostics_(diagnostics) {
   if (!node.IsMap()) {
     diagnostics_.add(key_, fmt::format("must be a map of keys and values, found {}", shown(node)));
+    return;
+  }
+  if (key_.empty() && isAnotherFile(node, known)) {
+    std::vector<std::string> found;
+    for (const auto& entry : node) {
+      if (found.size() < kMaxKeysShown) {
+        found.push_back(printable(entry.first.Scalar()));
+      }
+    }
+    diagnostics_.add("", fmt::format("is another kind of file: has no {} ({}), found {}{}", kind,
+                                     fmt::join(known, ", "), fmt::join(found, ", "),
+                                     node.size() > found.size() ? ", ..." : ""));
     return;
   }
   usable_ = true;

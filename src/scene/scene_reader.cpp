@@ -162,8 +162,12 @@ void readIntegrator(const MapReader& system, const ModelSetup& setup, SystemSpec
   }
 }
 
-/// The folder of the scene file; "" if the scene is not from a file.
+/// The folder of the scene file, the current one for standard input; "" if the scene is not from a
+/// file.
 std::string folderOf(const std::string& source) {
+  if (source == kStandardInput) {
+    return ".";
+  }
   std::error_code error;
   const std::filesystem::path file(source);
   if (!std::filesystem::is_regular_file(file, error)) {
@@ -393,7 +397,7 @@ Scene readSceneFile(const std::string& path) {
   } catch (const InputError& inputError) {
     throw SceneError({inputError.what()});
   }
-  return readScene(tree, path);
+  return readScene(tree, path == "-" ? kStandardInput : path);
 }
 
 }  // namespace whirl_twin

@@ -84,28 +84,43 @@ class YamlBounds : public YAML::EventHandler {
 
 }  // namespace
 
+bool isYamlStream(const std::string& path) {
+  return path == "-" || path == "/dev/stdin" || path.rfind("/dev/fd/", 0) == 0;
+}
+
 YAML::Node readYamlFile(const std::string& path, const std::string& what,
                         const std::string& contents) {
+  const std::string source = path == "-" ? kStandardInput : path;
   const auto inputError = [&](const std::string& why) {
-    return InputError(fmt::format("{}: {}", path, why));
+    return InputError(fmt::format("{}: {}", source, why));
   };
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
+  const bool stream = isYamlStream(path);
+  if (!stream && !std::filesystem::exists(path, error)) {
     throw inputError("no such file");
   }
   // Reading a device might not end, and a pipe would block until it is written.
-  if (!std::filesystem::is_regular_file(path, error)) {
+  if (!stream && !std::filesystem::is_regular_file(path, error)) {
     throw inputError("not a file");
   }
-  if (std::filesystem::file_size(path, error) > kMaxYamlSize) {
+  if (!stream && std::filesystem::file_size(path, error) > kMaxYamlSize) {
     throw inputError(fmt::format("larger than 4 MiB, the limit of {}", what));
   }
-  std::ifstream file(path, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file.good() && !file.eof()) {
+  std::ifstream file(path == "-" ? "/dev/stdin" : path, std::ios::binary);
+  std::string text(stream ? kMaxYamlSize + 1 : 0, '\0');
+  if (stream) {
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    if (text.size() > kMaxYamlSize) {
+      throw inputError(fmt::format("larger than 4 MiB, the limit of {}", what));
+    }
+  } else {
+    text.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  if (!file.is_open() || (!file.good() && !file.eof())) {
     throw inputError("cannot be read");
   }
-  return readYamlText(text, path, what, contents);
+  return readYamlText(text, source, what, contents);
 }
 
 YAML::Node readYamlText(const std::string& text, const std::string& source, const std::string& what,
@@ -132,6 +147,24 @@ YAML::Node readYamlText(const std::string& text, const std::string& source, cons
     throw inputError(fmt::format("empty: {} has {}", what, contents));
   }
   return tree;
+}
+
+YAML::Node separated(const YAML::Node& tree) {
+  if (tree.IsMap()) {
+    YAML::Node copy(YAML::NodeType::Map);
+    for (const auto& entry : tree) {
+      copy.force_insert(separated(entry.first), separated(entry.second));
+    }
+    return copy;
+  }
+  if (tree.IsSequence()) {
+    YAML::Node copy(YAML::NodeType::Sequence);
+    for (const auto& entry : tree) {
+      copy.push_back(separated(entry));
+    }
+    return copy;
+  }
+  return tree.IsScalar() ? YAML::Node(tree.Scalar()) : YAML::Node(YAML::NodeType::Null);
 }
 
 }  // namespace whirl_twin

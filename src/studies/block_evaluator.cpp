@@ -111,8 +111,9 @@ BlockEvaluator::Quick::Quick(const Study& study, const BuiltScene& scene)
   possible = !spec.rest;  // the equilibrium depends on the point
   for (const Variation& variation : study.vary) {
     const SceneNumber& place = variation.places.front();
-    possible = possible && variation.places.size() == 1 && place.size() == 4 &&
-               isNamed(place, 2, "parameters") && std::holds_alternative<std::string>(place[3]);
+    possible = possible && variation.places.size() == 1 && variation.written_unit.empty() &&
+               place.size() == 4 && isNamed(place, 2, "parameters") &&
+               std::holds_alternative<std::string>(place[3]);
     names.push_back(possible ? std::get<std::string>(place[3]) : "");
   }
 }

@@ -12,6 +12,7 @@
 
 #include "messages/input_error.h"
 #include "messages/names.h"
+#include "scene/written_quantity.h"
 #include "studies/alarm_watch.h"
 #include "studies/analysed_numbers.h"
 #include "studies/published_quantities.h"
@@ -167,21 +168,25 @@ class MeasureReader {
          {"<", Requirement::Is::kBelow},
          {">", Requirement::Is::kAbove}}};
     const std::string text = node.IsScalar() ? node.Scalar() : "";
+    std::string why;
     for (const auto& [sign, is] : kSigns) {
       const std::string begin = sign;
       if (text.compare(0, begin.size(), begin) != 0) {
         continue;
       }
       const std::size_t at = text.find_first_not_of(' ', begin.size());
-      const auto limit = at == std::string::npos ? std::nullopt : parseNumber(text.substr(at));
-      if (limit) {
+      const std::string written = at == std::string::npos ? "" : text.substr(at);
+      const std::string& unit = study_.measures[measure].unit;
+      if (const auto limit = parseQuantity(written, unit)) {
         study_.requirements.push_back({measure, is, *limit});
         return;
       }
+      why = unitDiagnostic(written, unit);
+      break;
     }
     diagnostics_.add(key, fmt::format("must be \"< LIMIT\", \"<= LIMIT\", \"> LIMIT\" or \">= "
-                                      "LIMIT\", found {}",
-                                      shown(node)));
+                                      "LIMIT\", found {}{}",
+                                      shown(node), why));
   }
 
   const BuiltScene& scene_;

@@ -69,7 +69,7 @@ PointEvaluator::PointEvaluator(const Study& study, const StepsChosen& steps,
 Scene PointEvaluator::sceneAt(const std::vector<double>& values) {
   for (std::size_t j = 0; j < values.size(); ++j) {
     for (const SceneNumber& place : study_.vary[j].places) {
-      put(tree_, place, values[j]);
+      put(tree_, place, values[j], study_.vary[j].written_unit);
     }
   }
   Scene scene = readScene(tree_, study_.scene_path);

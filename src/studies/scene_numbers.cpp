@@ -6,10 +6,12 @@
 #include <limits>
 
 #include "controllers/controller_registry.h"
+#include "messages/units.h"
 #include "models/model_registry.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_paths.h"
 #include "scene/system_setup.h"
+#include "scene/written_quantity.h"
 
 namespace whirl_twin {
 
@@ -47,10 +49,13 @@ SceneNumber below(SceneNumber place, const std::string& path) {
 void addScalars(const YAML::Node& node, const SceneNumber& place, const std::string& path,
                 Numbers& all) {
   if (node.IsScalar()) {
-    if (const auto value = parseNumber(node.Scalar()); value && !path.empty()) {
+    const auto written = writtenQuantity(node.Scalar());
+    if (written && !path.empty() && (written->unit.empty() || isUnit(written->unit))) {
       NamedNumber number;
       number.places = {place};
-      number.value = *value;
+      number.value = written->value;
+      number.unit = written->unit.empty() ? "-" : written->unit;
+      number.known = false;
       all.emplace(path, number);
     }
   } else if (node.IsMap()) {
@@ -86,8 +91,9 @@ void addSystem(const SystemSpec& spec, std::size_t place, Numbers& all) {
     all.insert_or_assign("systems." + spec.name + ".parameters." + parameters.names[i], number);
   }
   if (spec.speed) {
-    all.emplace(spec.name + ".speed",
-                NamedNumber{{below(root, "parameters.speed")}, *spec.speed, "rad/s", "", place});
+    all.emplace(
+        spec.name + ".speed",
+        NamedNumber{{below(root, "parameters.speed")}, *spec.speed, "rad/s", true, "", place});
   }
   if (spec.rest && spec.rest->asked) {
     return;  // its start is computed
@@ -97,10 +103,11 @@ void addSystem(const SystemSpec& spec, std::size_t place, Numbers& all) {
     const std::string& name = coordinates[i].name;
     const std::string& unit = coordinates[i].unit;
     all.emplace(spec.name + ".initial." + name,
-                NamedNumber{{below(root, "initial." + name)}, spec.q[i], unit, "", place});
+                NamedNumber{{below(root, "initial." + name)}, spec.q[i], unit, true, "", place});
     all.emplace(
         spec.name + ".initial." + name + "_rate",
-        NamedNumber{{below(root, "initial." + name + "_rate")}, spec.v[i], unit + "/s", "", place});
+        NamedNumber{
+            {below(root, "initial." + name + "_rate")}, spec.v[i], unit + "/s", true, "", place});
   }
 }
 
@@ -108,7 +115,7 @@ void addDrive(const DriveSpec& drive, Numbers& all) {
   const SceneNumber root{std::string("drives"), drive.name};
   const auto add = [&](const std::string& key, double value, const std::string& unit) {
     all.insert_or_assign(drive.name + "." + key,
-                         NamedNumber{{below(root, key)}, value, unit, "", 0});
+                         NamedNumber{{below(root, key)}, value, unit, true, "", 0});
   };
   add("speed", drive.speed, "rad/s");
   add("angle", drive.angle, "rad");
@@ -122,7 +129,7 @@ void addDrive(const DriveSpec& drive, Numbers& all) {
         value = std::numeric_limits<double>::quiet_NaN();
       }
     }
-    all.insert_or_assign(drive.name + "." + key, NamedNumber{places, value, unit, "", 0});
+    all.insert_or_assign(drive.name + "." + key, NamedNumber{places, value, unit, true, "", 0});
   };
   if (!drive.profile.empty()) {
     addOfAll("max_acceleration", &SpeedMove::max_acceleration, "rad/s^2");
@@ -172,33 +179,16 @@ Numbers numbersOf(const YAML::Node& tree, const Scene& scene) {
       const std::string path =
           fmt::format("controllers.{}.parameters.{}", controller.name, parameters.names[i]);
       all.emplace(controller.name + "." + parameters.names[i],
-                  NamedNumber{{below({}, path)}, parameters.values[i], "-", "", 0});
+                  NamedNumber{{below({}, path)}, parameters.values[i], "-", false, "", 0});
     }
     addShort("controllers", controller.name, all);
   }
-  all.emplace("gravity", NamedNumber{{{std::string("gravity")}}, scene.gravity, "m/s^2", "", 0});
+  all.insert_or_assign(
+      "gravity", NamedNumber{{{std::string("gravity")}}, scene.gravity, "m/s^2", true, "", 0});
   return all;
 }
 
-YAML::Node separated(const YAML::Node& tree) {
-  if (tree.IsMap()) {
-    YAML::Node copy(YAML::NodeType::Map);
-    for (const auto& entry : tree) {
-      copy.force_insert(separated(entry.first), separated(entry.second));
-    }
-    return copy;
-  }
-  if (tree.IsSequence()) {
-    YAML::Node copy(YAML::NodeType::Sequence);
-    for (const auto& entry : tree) {
-      copy.push_back(separated(entry));
-    }
-    return copy;
-  }
-  return tree.IsScalar() ? YAML::Node(tree.Scalar()) : YAML::Node(YAML::NodeType::Null);
-}
-
-void put(YAML::Node tree, const SceneNumber& place, double value) {
+void put(YAML::Node tree, const SceneNumber& place, double value, const std::string& unit) {
   YAML::Node at;
   at.reset(tree);
   for (const auto& key : place) {
@@ -208,7 +198,7 @@ void put(YAML::Node tree, const SceneNumber& place, double value) {
       at.reset(at[std::get<std::size_t>(key)]);
     }
   }
-  at = fmt::format("{}", value);
+  at = fmt::format("{}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
 }  // namespace whirl_twin

@@ -30,6 +30,7 @@ struct NamedNumber {
   std::vector<SceneNumber> places;  ///< one, or several that are varied together
   double value = 0.0;               ///< nominal; NaN: several different ones
   std::string unit = "-";
+  bool known = true;  ///< the unit; else it is that of the file, or "-"
   /// Of a parameter with a restricted range: path in its system, and index of that in the scene
   std::string parameter = "";
   std::size_t system = 0;
@@ -38,10 +39,7 @@ struct NamedNumber {
 /// All numbers by path. The tree must be that of the scene.
 std::map<std::string, NamedNumber> numbersOf(const YAML::Node& tree, const Scene& scene);
 
-/// A deep copy, also of nodes shared within the tree (anchors).
-YAML::Node separated(const YAML::Node& tree);
-
-/// Writes a number at a place; missing maps on the way are created.
-void put(YAML::Node tree, const SceneNumber& place, double value);
+/// Writes a number at a place, with a unit unless it is ""; missing maps on the way are created.
+void put(YAML::Node tree, const SceneNumber& place, double value, const std::string& unit = "");
 
 }  // namespace whirl_twin

@@ -49,6 +49,9 @@ struct Variation {
   Distribution distribution;
   std::string unit;      ///< "-" if dimensionless or not known
   double nominal = 0.0;  ///< value in the scene
+  /// Written behind the value in the scene's file, whose reader converts it; "": the number is in
+  /// the unit of the scene.
+  std::string written_unit = "";
 };
 
 struct Measure {

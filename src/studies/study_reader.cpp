@@ -14,8 +14,10 @@
 #include "control/speed_profile.h"
 #include "messages/checksum.h"
 #include "messages/input_error.h"
+#include "messages/names.h"
 #include "monitoring/alarm_settings_reader.h"
 #include "scene/built_scene.h"
+#include "scene/error_list.h"
 #include "scene/node_reader.h"
 #include "scene/scene_reader.h"
 #include "scene/signal_names.h"
@@ -207,7 +209,7 @@ class StudyReader {
                       study_.block));
     }
     if (!diagnostics_.all().empty()) {
-      throw InputError(fmt::format("{}", fmt::join(diagnostics_.all(), "\ntwin: ")));
+      throw InputError(errorList(diagnostics_.all(), "\ntwin: "));
     }
     if (study_.block == 0) {
       study_.block = std::clamp(study_.points() / kUsualBlocks, std::uint64_t{1}, kUsualBlock);

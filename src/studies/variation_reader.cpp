@@ -5,8 +5,11 @@
 #include <cmath>
 #include <optional>
 
+#include "messages/units.h"
 #include "models/model_registry.h"
+#include "scene/parameter_limits.h"
 #include "scene/parameter_paths.h"
+#include "scene/written_quantity.h"
 
 namespace whirl_twin {
 
@@ -42,6 +45,9 @@ class VariationReader {
       variation.places = found->second.places;
       variation.unit = found->second.unit;
       variation.nominal = found->second.value;
+      unit_known_ = found->second.known;
+      unit_ = unit_known_ || variation.unit != "-" ? variation.unit : "";
+      variation.written_unit = unit_known_ ? "" : unit_;
       for (const SceneNumber& place : variation.places) {
         const auto [other, first] = taken.emplace(keyOf(place), path);
         if (!first) {
@@ -49,7 +55,11 @@ class VariationReader {
                                                        keyOf(place), other->second));
         }
       }
-      if (readDistribution(vary.at(path), vary.key(path), variation)) {
+      const bool read = readDistribution(vary.at(path), vary.key(path), variation);
+      if (!unit_known_ && !unit_.empty()) {
+        variation.unit = variation.written_unit = unit_;
+      }
+      if (read) {
         checkRange(vary.key(path), found->second, variation.distribution);
       }
       all.push_back(variation);
@@ -120,15 +130,34 @@ class VariationReader {
     }
     bool good = true;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const auto number = list[i].IsScalar() ? parseNumber(list[i].Scalar()) : std::nullopt;
+      const auto number = quantity(list[i]);
       if (!number) {
-        diagnostics_.add(fmt::format("{}[{}]", key, i),
-                         fmt::format("must be a finite number, found {}", shown(list[i])));
+        diagnostics_.add(
+            fmt::format("{}[{}]", key, i),
+            fmt::format("must be {}, found {}{}",
+                        expected(Range::kAny, unit_.empty() ? "-" : unit_), shown(list[i]),
+                        unitDiagnostic(list[i], unit_.empty() ? "-" : unit_)));
         good = false;
       }
       numbers.push_back(number.value_or(0.0));
     }
     return good ? numbers : std::vector<double>();
+  }
+
+  /// A number with or without a unit. The unit of a number that only its reader knows is that of
+  /// the first value, or of the scene's file.
+  std::optional<double> quantity(const YAML::Node& node) {
+    const auto written = node.IsScalar() ? writtenQuantity(node.Scalar()) : std::nullopt;
+    if (!written) {
+      return std::nullopt;
+    }
+    if (!unit_known_ && unit_.empty() && isUnit(written->unit)) {
+      unit_ = written->unit;
+    }
+    if (!unit_known_ && !unit_.empty() && written->unit.empty()) {
+      return std::nullopt;  // perhaps of another unit
+    }
+    return parseQuantity(node.Scalar(), unit_.empty() ? "-" : unit_);
   }
 
   /// False if a diagnostic was added.
@@ -248,6 +277,8 @@ class VariationReader {
   const Scene& scene_;
   const std::map<std::string, NamedNumber>& numbers_;
   Diagnostics& diagnostics_;
+  std::string unit_;  // of the number that is read; "": none
+  bool unit_known_ = true;
 };
 
 }  // namespace

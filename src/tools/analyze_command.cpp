@@ -4,8 +4,6 @@
 #include <optional>
 
 #include "requests/scene_requests.h"
-#include "requests/shipped_scenes.h"
-#include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
@@ -59,20 +57,20 @@ constexpr const char* kAnalyzeFooter =
     "  twin analyze demo --system rotor --json";
 
 struct AnalyzeOptions {
-  std::string scene;
-  std::optional<std::string> csv;
+  SceneArgument scene;
+  std::optional<std::string> csv, units;
   bool json = false;
   AnalyzeRequest request;
 };
 
-int analyzeScene(const AnalyzeOptions& options) {
+int analyzeScene(AnalyzeOptions& options) {
   requireCsvName(options.csv);
   if (options.request.at) {
     catchInterrupts();
   }
+  options.request.units = chosenUnits(options.units);
   TerminalProgress progress(true);
-  const Document document =
-      analyzeDocument(readSceneFile(scenePath(options.scene)), options.request, progress);
+  const Document document = analyzeDocument(sceneOf(options.scene), options.request, progress);
   return printDocument(document, options.json, options.csv);
 }
 
@@ -85,7 +83,8 @@ void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
   addSceneOption(command, options->scene);
   command.option("--system", request->system, "show this system only").type("NAME");
   command
-      .option("--speed", request->speed, "speed of the shafts [rad/s]; default: that at the start")
+      .quantity("--speed", request->speed, kSignedShaftSpeed, "speed of the shafts",
+                "that at the start")
       .type("W");
   command.option("--at", request->at, "simulated time since the start [s]; default: 0").type("S");
   command
@@ -97,8 +96,10 @@ void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
   command.flag("--parameters", request->all_parameters,
                "compute the instability points of the parameters also where that takes minutes");
   addCsvOption(command, options->csv);
+  addUnitsOption(command, options->units);
   addJsonOption(command, options->json);
   addInsistOption(command, request->insist);
+  command.takeUnits();
   command.footer(kAnalyzeFooter);
   command.callback([options, &status] { status = analyzeScene(*options); });
 }

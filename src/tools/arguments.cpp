@@ -21,10 +21,23 @@ bool selects(const ChannelFilter& filter, const std::string& channel) {
          });
 }
 
-void addSceneOption(const ProgramCommand& command, std::string& scene) {
-  command.option("SCENE", scene, "scene file (YAML), or the name of a scene of the package")
+Option addSetOption(const ProgramCommand& command, SceneArgument& scene) {
+  command.takeUnits();
+  return command
+      .option("--set", scene.changes,
+              "replace a value of the scene before it is checked: rotor.damping=8, "
+              "\"rotor.discs[0].mass=500 g\", \"shaft.speed=800 rpm\"; may be repeated")
+      .type("PATH=VALUE")
+      .oneByOne();
+}
+
+void addSceneOption(const ProgramCommand& command, SceneArgument& scene) {
+  command
+      .option("SCENE", scene.name,
+              "scene file (YAML), the name of a scene of the package, or - for standard input")
       .required()
       .type("");
+  addSetOption(command, scene);
 }
 
 void addInsistOption(const ProgramCommand& command, bool& insist) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "requests/scene_argument.h"
 #include "tools/command.h"
 
 namespace whirl_twin {
@@ -18,8 +19,10 @@ void addChannelOption(const ProgramCommand& command, ChannelFilter& filter);
 
 bool selects(const ChannelFilter& filter, const std::string& channel);
 
-/// The scene argument of a command.
-void addSceneOption(const ProgramCommand& command, std::string& scene);
+/// --set: values that replace those of the scene.
+Option addSetOption(const ProgramCommand& command, SceneArgument& scene);
+/// SCENE and --set.
+void addSceneOption(const ProgramCommand& command, SceneArgument& scene);
 
 /// --insist: allow a command that takes more than a day, or more memory than is free
 /// (reports/asked_cost.h).

@@ -7,9 +7,9 @@
 #include "algebra/constants.h"
 #include "messages/names.h"
 #include "reports/csv_table.h"
+#include "reports/report_values.h"
 #include "requests/rotor_requests.h"
-#include "requests/shipped_scenes.h"
-#include "scene/scene_reader.h"
+#include "requests/scene_argument.h"
 #include "tools/arguments.h"
 #include "tools/balancing_runs.h"
 #include "tools/commands.h"
@@ -28,17 +28,18 @@ constexpr const char* kBalanceFooter =
     "FILE is YAML or JSON:\n"
     "  probes:  [left, right]                      what is measured, each at each speed\n"
     "  planes:  [disc_1, disc_2]                   where masses can be added\n"
-    "  initial: [[12e-6, 40], [9e-6, 130]]         amplitude (any unit) and phase lag (deg) of "
-    "each\n"
+    "  initial: [[12e-6, 40], [9e-6, 130]]         amplitude and phase lag (deg) of each; the\n"
+    "                                              amplitudes without a unit, or with: 2.5 mil\n"
     "  trials:                                     runs with one trial mass each\n"
     "    - {plane: disc_1, mass_radius: 1e-4, angle: 0, readings: [[8e-6, 55], [7e-6, 120]]}\n"
-    "    - {plane: disc_2, mass_radius: 1e-4, angle: 90, readings: [[10e-6, 20], [5e-6, 150]]}\n"
+    "    - {plane: disc_2, mass_radius: 100 g mm, angle: 90, readings: [[10e-6, 20], [5e-6, "
+    "150]]}\n"
     "  weights: [1, 1]                             of the probes; optional\n"
     "  deviation: 0.2e-6                           standard deviation of either component of a\n"
     "                                              reading; default: estimated from the residual,\n"
     "                                              where there are more probes than planes\n"
-    "mass_radius in kg m; angles in degrees from the shaft's phase mark in the direction of "
-    "rotation.\n"
+    "mass_radius in kg m, or with a unit: 15 g mm, 5 oz in; angles in deg, from the shaft's phase\n"
+    "mark in the direction of rotation.\n"
     "The correction masses are to be added after the trial masses are removed.\n"
     "\n"
     "With --measured, FILE is a scene, and LOG an LCM log or a rosbag with the measurements of "
@@ -53,8 +54,10 @@ constexpr const char* kBalanceFooter =
     "Example:\n"
     "  twin balance balancing --measured run.lcmlog --planes left_disc right_disc";
 
+constexpr OptionQuantity kAnySpeed{"a shaft speed", "rad/s", 0.0};
+
 struct BalanceRequest {
-  std::string file;
+  SceneArgument scene;  // or the file of the trial runs
   std::optional<std::string> measured, csv;
   MeasuredBalanceRequest log;
   bool json = false;
@@ -98,6 +101,7 @@ Json balanceJson(const BalancingRuns& runs, const BalanceCorrection& c, const Sp
                                         {"phase_lag", -degrees(left) + 0.0}};
   }
   json["residual_rms"] = c.rms;
+  json["amplitude_unit"] = textOrNull(runs.unit);  // null: that of the readings
   json["condition"] = c.condition;
   return json;
 }
@@ -137,7 +141,8 @@ std::string balanceText(const BalancingRuns& runs, const BalanceCorrection& c,
   if (!spread) {
     out += "  no confidence intervals: give `deviation`, or more probes than planes\n";
   }
-  out += "vibration                      before        after\n";
+  const std::string vibration = runs.unit.empty() ? "vibration" : "vibration, " + runs.unit;
+  out += fmt::format("{:<18} {:>18} {:>12}\n", vibration, "before", "after");
   for (std::size_t i = 0; i < runs.probes.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     out += fmt::format("  {:<18} {:>16.6g} {:>12.6g}\n", printable(runs.probes[i]),
@@ -150,7 +155,7 @@ std::string balanceText(const BalancingRuns& runs, const BalanceCorrection& c,
 }
 
 int balanceRuns(const BalanceRequest& request) {
-  const BalancingRuns runs = readBalancingRuns(request.file);
+  const BalancingRuns runs = readBalancingRuns(request.scene.name);
   const Eigen::MatrixXcd influence =
       influenceOfPlanes(runs.initial, runs.trials, static_cast<Eigen::Index>(runs.planes.size()));
   const BalanceCorrection correction = balance(influence, runs.initial, runs.weights);
@@ -164,8 +169,8 @@ int balanceRuns(const BalanceRequest& request) {
 }
 
 int balanceMeasured(const BalanceRequest& request) {
-  const Scene scene = readSceneFile(scenePath(request.file));
-  return printDocument(balanceDocument(scene, request.log), request.json, request.csv);
+  return printDocument(balanceDocument(sceneOf(request.scene), request.log), request.json,
+                       request.csv);
 }
 
 }  // namespace
@@ -173,22 +178,26 @@ int balanceMeasured(const BalanceRequest& request) {
 void addBalanceCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("balance", kBalanceDescription);
   const auto request = std::make_shared<BalanceRequest>();
-  command.option("FILE", request->file, "the trial runs; with --measured the scene")
+  command.option("FILE", request->scene.name, "the trial runs; with --measured the scene")
       .required()
       .type("");
   const Option measured =
       command.option("--measured", request->measured, "log of the running machine").type("LOG");
   const auto with_log = [measured](const Option& option) { return option.needs(measured); };
+  with_log(addSetOption(command, request->scene));
   with_log(command.option("--system", request->log.system, "this rotor").type("NAME"));
   with_log(
       command
           .option("--planes", request->log.unbalance.planes,
                   "stations where masses can be added; default: those of the scene's unbalances")
           .type("STATION"));
-  with_log(
-      command.option("--from", request->log.unbalance.from, "rad/s; slower intervals are left out")
-          .type("W"));
-  with_log(command.option("--to", request->log.unbalance.to, "rad/s; faster intervals are left out")
+  with_log(command
+               .quantity("--from", request->log.unbalance.from, kAnySpeed,
+                         "slower intervals are left out: speed")
+               .type("W"));
+  with_log(command
+               .quantity("--to", request->log.unbalance.to, kAnySpeed,
+                         "faster intervals are left out: speed")
                .type("W"));
   with_log(command.flag("--known-run-out", request->log.unbalance.run_out_known,
                         "use the run-out of the scene's sensors, 0 where they have none"));

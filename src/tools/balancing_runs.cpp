@@ -9,7 +9,10 @@
 #include "algebra/constants.h"
 #include "messages/input_error.h"
 #include "messages/names.h"
+#include "messages/units.h"
+#include "scene/error_list.h"
 #include "scene/node_reader.h"
+#include "scene/written_quantity.h"
 #include "scene/yaml_file.h"
 
 namespace whirl_twin {
@@ -35,12 +38,16 @@ class RunsReader {
       readWeights(map);
       readTrials(map);
       if (map.has("deviation")) {
+        noteUnit(map.at("deviation"), map.key("deviation"));
         runs_.deviation = number(map.at("deviation"), map.key("deviation"), kMinMass, kLargest,
-                                 "a standard deviation");
+                                 "a standard deviation", amplitudeUnit(map.at("deviation")));
       }
     }
+    if (with_unit_ && without_unit_ && diagnostics_.all().empty()) {
+      diagnostics_.add(*without_unit_, fmt::format("must have a unit, as {} has", *with_unit_));
+    }
     if (!diagnostics_.all().empty()) {
-      throw InputError(fmt::format("{}", fmt::join(diagnostics_.all(), "\ntwin: ")));
+      throw InputError(errorList(diagnostics_.all(), "\ntwin: "));
     }
     return runs_;
   }
@@ -79,16 +86,38 @@ class RunsReader {
     return all;
   }
 
+  /// `unit`: that of a number without one.
   double number(const YAML::Node& node, const std::string& key, double least, double largest,
-                const std::string& what) {
-    const auto value =
-        node.IsDefined() && node.IsScalar() ? parseNumber(node.Scalar()) : std::optional<double>();
+                const std::string& what, const std::string& unit) {
+    const auto value = node.IsDefined() && node.IsScalar() ? parseQuantity(node.Scalar(), unit)
+                                                           : std::optional<double>();
     if (!value || !(*value >= least && *value <= largest)) {
-      diagnostics_.add(key, fmt::format("must be {} from {:g} to {:g}, found {}", what, least,
-                                        largest, shown(node)));
+      diagnostics_.add(
+          key, fmt::format("must be {} from {:g} to {:g}, found {}{}", what, least, largest,
+                           shown(node), node.IsDefined() ? unitDiagnostic(node, unit) : ""));
       return 0.0;
     }
     return *value;
+  }
+
+  /// Amplitudes have any unit, all the same, and then none; or a unit each.
+  std::string amplitudeUnit(const YAML::Node& node) {
+    const auto written =
+        node.IsDefined() && node.IsScalar() ? writtenQuantity(node.Scalar()) : std::nullopt;
+    if (runs_.unit.empty() && written && !written->unit.empty()) {
+      runs_.unit = "m";
+      for (const char* unit : {"m/s", "m/s^2"}) {
+        runs_.unit = unitScale(written->unit, unit) != 0.0 ? unit : runs_.unit;
+      }
+    }
+    return runs_.unit.empty() ? "m" : runs_.unit;
+  }
+
+  void noteUnit(const YAML::Node& node, const std::string& key) {
+    const auto written = node.IsScalar() ? writtenQuantity(node.Scalar()) : std::nullopt;
+    std::optional<std::string>& first =
+        written && !written->unit.empty() ? with_unit_ : without_unit_;
+    first = first.value_or(key);
   }
 
   Eigen::VectorXcd readings(const MapReader& map, const std::string& name) {
@@ -106,10 +135,11 @@ class RunsReader {
             key, fmt::format("must be [amplitude, phase lag in deg], found {}", shown(nodes[i])));
         continue;
       }
-      const double amplitude =
-          number(nodes[i][0], key + "[0]", -kLargest, kLargest, "an amplitude");
+      const double amplitude = number(nodes[i][0], key + "[0]", -kLargest, kLargest, "an amplitude",
+                                      amplitudeUnit(nodes[i][0]));
+      noteUnit(nodes[i][0], key + "[0]");
       const double lag =
-          number(nodes[i][1], key + "[1]", -kMaxAngle, kMaxAngle, "a phase lag in deg");
+          number(nodes[i][1], key + "[1]", -kMaxAngle, kMaxAngle, "a phase lag in deg", "deg");
       all[static_cast<Eigen::Index>(i)] = amplitude * std::polar(1.0, -kDegree * lag);
     }
     return all;
@@ -125,8 +155,8 @@ class RunsReader {
     const auto nodes =
         list(map, "weights", fmt::format("a list of {}, one per probe", probes), probes, probes);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      runs_.weights[static_cast<Eigen::Index>(i)] =
-          number(nodes[i], fmt::format("{}[{}]", map.key("weights"), i), 0.0, kLargest, "a weight");
+      runs_.weights[static_cast<Eigen::Index>(i)] = number(
+          nodes[i], fmt::format("{}[{}]", map.key("weights"), i), 0.0, kLargest, "a weight", "-");
     }
     if (diagnostics_.all().size() == before && runs_.weights.isZero(0.0)) {
       diagnostics_.add(map.key("weights"), "must have one > 0");
@@ -167,9 +197,9 @@ class RunsReader {
     TrialRun trial;
     const std::size_t before = diagnostics_.all().size();
     const double size = number(run.at("mass_radius"), run.key("mass_radius"), -kLargest, kLargest,
-                               "mass times radius in kg m,");
+                               "mass times radius in kg m,", "kg m");
     const double angle =
-        number(run.at("angle"), run.key("angle"), -kMaxAngle, kMaxAngle, "an angle in deg");
+        number(run.at("angle"), run.key("angle"), -kMaxAngle, kMaxAngle, "an angle in deg", "deg");
     trial.mass_radius = size * std::polar(1.0, kDegree * angle);
     trial.readings = readings(run, "readings");
     if (place == planes.end()) {
@@ -188,6 +218,7 @@ class RunsReader {
 
   Diagnostics diagnostics_;
   BalancingRuns runs_;
+  std::optional<std::string> with_unit_, without_unit_;  // keys of the first such amplitudes
 };
 
 }  // namespace

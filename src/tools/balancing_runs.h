@@ -16,6 +16,7 @@ struct BalancingRuns {
   std::vector<TrialRun> trials;             ///< at least one for each plane
   /// Standard deviation of either component of a reading, in its unit; 0: not specified.
   double deviation = 0.0;
+  std::string unit;  ///< SI unit of all amplitudes: m, m/s or m/s^2; "": they have none
 };
 
 /// Reads them from a YAML file. Throws InputError with all its errors. The limits on the values

@@ -33,7 +33,9 @@ int campbellOf(CampbellOptions& given) {
   given.request.system = given.options.system;
   const Scene scene = sceneOf(given.options);
   TerminalProgress progress(false);
-  return printDocument(campbellDocument(scene, given.request, progress), given.options);
+  return printDocument(
+      campbellDocument(scene, given.request, progress, chosenUnits(given.options.units)),
+      given.options);
 }
 
 }  // namespace
@@ -43,8 +45,8 @@ void addCampbellCommand(const ProgramCommand& twin, int& status) {
   const auto given = std::make_shared<CampbellOptions>();
   CampbellReportRequest* const request = &given->request;
   addReportOptions(command, given->options, "the diagram");
-  command.option("--from", request->range.from, "rad/s; default: 0").type("W");
-  command.option("--to", request->range.to, "rad/s; default: 1.2 times the drive's highest speed")
+  command.quantity("--from", request->range.from, kShaftSpeed, "lowest speed", "0").type("W");
+  command.quantity("--to", request->range.to, kShaftSpeed, "highest speed", "1.2 times the drive's")
       .type("W");
   command.option("--points", request->range.points, "number of speeds; default: 200").type("N");
   command.option("--harmonic", request->harmonics, "multiples of the speed; default: 1").type("H");

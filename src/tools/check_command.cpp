@@ -3,8 +3,6 @@
 
 #include "reports/rotor_systems.h"
 #include "reports/scene_check.h"
-#include "requests/shipped_scenes.h"
-#include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
@@ -26,14 +24,14 @@ constexpr const char* kCheckFooter =
     "  twin check demo --system rotor --json";
 
 struct CheckRequest {
-  std::string scene;
+  SceneArgument scene;
   std::optional<std::string> system;
   bool json = false;
   bool insist = false;
 };
 
 int check(const CheckRequest& request) {
-  const Scene scene = readSceneFile(scenePath(request.scene));
+  const Scene scene = sceneOf(request.scene);
   const std::vector<std::size_t> systems = selectedSystems(scene, request.system);
   tell(costOfCheck(scene, systems), request.insist);
   const SceneCheck result = checkScene(scene, systems);

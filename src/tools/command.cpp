@@ -1,10 +1,20 @@
 #include "tools/command.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <optional>
 
 namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kUnitsNote =
+    "A number may have a unit: \"800 rpm\", \"5 mil\", \"2 ms\" (`twin units`); without one it is "
+    "in SI\nunits.";
+
+}  // namespace
 
 Option Option::type(const std::string& name) const {
   return Option(option_->type_name(name));
@@ -59,14 +69,49 @@ WHIRL_TWIN_OPTION(std::optional<std::size_t>)
 WHIRL_TWIN_OPTION(std::vector<std::string>)
 WHIRL_TWIN_OPTION(std::vector<double>)
 WHIRL_TWIN_OPTION(std::vector<int>)
-WHIRL_TWIN_OPTION(std::vector<std::vector<double>>)
+
+template <class T>
+Option ProgramCommand::quantity(const std::string& name, T& value, const OptionQuantity& quantity,
+                                const std::string& text, const std::string& fallback) const {
+  takeUnits();
+  const auto take = [&value, name, quantity](const CLI::results_t& given) {
+    value = readQuantity(name, given.at(0), quantity);
+    return true;
+  };
+  return Option(app_->add_option(name, CLI::callback_t(take),
+                                 fmt::format("{}, {}{}", text, rangeText(quantity),
+                                             fallback.empty() ? "" : "; default: " + fallback)));
+}
+template Option ProgramCommand::quantity<double>(const std::string&, double&, const OptionQuantity&,
+                                                 const std::string&, const std::string&) const;
+template Option ProgramCommand::quantity<std::optional<double>>(const std::string&,
+                                                                std::optional<double>&,
+                                                                const OptionQuantity&,
+                                                                const std::string&,
+                                                                const std::string&) const;
+
+Option ProgramCommand::quantities(const std::string& name, std::vector<std::vector<double>>& value,
+                                  const std::vector<OptionQuantity>& parts,
+                                  const std::string& text) const {
+  takeUnits();
+  const auto take = [&value, name, parts](const CLI::results_t& given) {
+    value.assign(given.size() / parts.size(), {});
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      value[i / parts.size()].push_back(readQuantity(name, given[i], parts[i % parts.size()]));
+    }
+    return true;
+  };
+  return Option(app_->add_option(name, CLI::callback_t(take), text)
+                    ->type_size(static_cast<int>(parts.size()))
+                    ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+}
 
 Option ProgramCommand::flag(const std::string& name, bool& value, const std::string& text) const {
   return Option(app_->add_flag(name, value, text));
 }
 
 void ProgramCommand::footer(const std::string& text) const {
-  app_->footer(text);
+  app_->footer(*takes_units_ ? text + "\n\n" + kUnitsNote : text);
 }
 
 void ProgramCommand::callback(const std::function<void()>& run) const {

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "requests/option_quantity.h"
 
 namespace CLI {
 class App;
@@ -38,14 +41,24 @@ class Option {
 /// Reference to a command, or to the command line itself.
 class ProgramCommand {
  public:
-  explicit ProgramCommand(CLI::App* app) : app_(app) {}
+  explicit ProgramCommand(CLI::App* app) : app_(app), takes_units_(std::make_shared<bool>(false)) {}
 
   ProgramCommand subcommand(const std::string& name, const std::string& description) const;
   /// value: the default, and the parsed value once the line is parsed; a string, a number, an
   /// optional or a vector of either (command.cpp lists them).
   template <class T>
   Option option(const std::string& name, T& value, const std::string& text) const;
+  /// A physical number, with a unit or in that of `quantity`: a double or an optional. `fallback`
+  /// is the default for the help, "" for none. An invalid number throws InputError.
+  template <class T>
+  Option quantity(const std::string& name, T& value, const OptionQuantity& quantity,
+                  const std::string& text, const std::string& fallback = "") const;
+  /// Several of them at each occurrence of the option.
+  Option quantities(const std::string& name, std::vector<std::vector<double>>& value,
+                    const std::vector<OptionQuantity>& parts, const std::string& text) const;
   Option flag(const std::string& name, bool& value, const std::string& text) const;
+  /// From here on the help says that numbers may have units.
+  void takeUnits() const { *takes_units_ = true; }
   /// Text below the options in the help.
   void footer(const std::string& text) const;
   /// The function that runs the command, once its options are parsed.
@@ -53,6 +66,7 @@ class ProgramCommand {
 
  private:
   CLI::App* app_;
+  std::shared_ptr<bool> takes_units_;
 };
 
 }  // namespace whirl_twin

@@ -18,6 +18,7 @@ void addCheckCommand(const ProgramCommand& twin, int& status);
 void addScenesCommand(const ProgramCommand& twin, int& status);
 void addModelsCommand(const ProgramCommand& twin, int& status);
 void addControllersCommand(const ProgramCommand& twin, int& status);
+void addUnitsCommand(const ProgramCommand& twin, int& status);
 void addNewCommand(const ProgramCommand& twin, int& status);
 void addImportCommand(const ProgramCommand& twin, int& status);
 void addSimulateCommand(const ProgramCommand& twin, int& status);

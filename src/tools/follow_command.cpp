@@ -8,7 +8,7 @@
 #include "estimation/follow_settings.h"
 #include "reports/followed_log.h"
 #include "requests/durations.h"
-#include "requests/shipped_scenes.h"
+#include "requests/scene_argument.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -41,7 +41,7 @@ constexpr const char* kFollowFooter =
     "record";
 
 struct FollowRequest {
-  std::string scene;
+  SceneArgument scene;
   std::string log;
   std::optional<std::string> settings;
   std::optional<std::string> output;
@@ -60,7 +60,8 @@ std::int64_t strideOf(const FollowRequest& request, const Scene& scene) {
          scene.step;
 }
 
-std::unique_ptr<SampleWriter> writerOf(const FollowRequest& request, const Twin& twin) {
+std::unique_ptr<SampleWriter> writerOf(const FollowRequest& request, const SceneTree& scene,
+                                       const Twin& twin) {
   if (!request.output) {
     return nullptr;
   }
@@ -73,10 +74,7 @@ std::unique_ptr<SampleWriter> writerOf(const FollowRequest& request, const Twin&
     return makeTableWriter(twin, systems, *request.output);
   }
   if (extension == ".lcmlog") {
-    const std::string scene = scenePath(request.scene);
-    return makeLogWriter(twin, systems,
-                         sceneText(readYamlFile(scene, "a scene", "systems"),
-                                   std::filesystem::absolute(scene).string()),
+    return makeLogWriter(twin, systems, sceneText(scene.tree(), scene.absoluteSource()),
                          *request.output);
   }
   throw InputError(
@@ -85,7 +83,8 @@ std::unique_ptr<SampleWriter> writerOf(const FollowRequest& request, const Twin&
 
 int follow(const FollowRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
-  const Twin twin(readEstimatorSceneFile(scenePath(request.scene)));
+  const SceneTree scene(request.scene);
+  const Twin twin(scene.estimatorScene());
   const FollowSettings settings =
       request.settings
           ? readFollowSettings(
@@ -93,7 +92,7 @@ int follow(const FollowRequest& request) {
                 *request.settings, twin.built())
           : FollowSettings{};
   const std::int64_t every = strideOf(request, twin.scene());
-  const auto writer = writerOf(request, twin);
+  const auto writer = writerOf(request, scene, twin);
   constexpr std::int64_t kParts = 1000;
   ProgressBar progress(request.log, kParts, false, request.insist);
   const FollowedLog run = followLog(
@@ -136,6 +135,7 @@ void addFollowCommand(const ProgramCommand& twin, int& status) {
       .type("PREFIX");
   addJsonOption(command, request->json);
   addInsistOption(command, request->insist);
+  command.takeUnits();
   command.footer(kFollowFooter);
   command.callback([request, &status] { status = follow(*request); });
 }

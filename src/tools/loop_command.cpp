@@ -3,8 +3,6 @@
 
 #include "reports/csv_table.h"
 #include "requests/scene_requests.h"
-#include "requests/shipped_scenes.h"
-#include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
@@ -32,7 +30,7 @@ constexpr const char* kLoopFooter =
     "  twin loop my_rotor.yaml --speed 300 --json";
 
 struct LoopOptions {
-  std::string scene;
+  SceneArgument scene;
   std::optional<double> speed;
   std::optional<std::string> plot;
   bool json = false;
@@ -40,7 +38,7 @@ struct LoopOptions {
 
 int loopsOf(const LoopOptions& options) {
   requirePictureName(options.plot);
-  const Document document = loopDocument(readSceneFile(scenePath(options.scene)), options.speed);
+  const Document document = loopDocument(sceneOf(options.scene), options.speed);
   return printDocument(document, options.json, std::nullopt, options.plot);
 }
 
@@ -51,7 +49,8 @@ void addLoopCommand(const ProgramCommand& twin, int& status) {
   const auto request = std::make_shared<LoopOptions>();
   addSceneOption(command, request->scene);
   command
-      .option("--speed", request->speed, "speed of all shafts [rad/s]; default: that at the start")
+      .quantity("--speed", request->speed, kSignedShaftSpeed, "speed of all shafts",
+                "that at the start")
       .type("W");
   command.option("--plot", request->plot, "the diagrams, FILE.svg or FILE.png").type("FILE");
   addJsonOption(command, request->json);

@@ -33,18 +33,23 @@ void addMapCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("map", kMapDescription);
   const auto request = std::make_shared<MapRequest>();
   addReportOptions(command, request->options, "the map");
-  command.option("--from", request->map.from, "N/m; default: a decade below the actual bearings")
+  constexpr OptionQuantity kStiffness{"a stiffness", "N/m", 0.0, kMaxMapStiffness, true};
+  command
+      .quantity("--from", request->map.from, kStiffness, "lowest stiffness",
+                "a decade below the actual bearings")
       .type("K");
-  command.option("--to", request->map.to, "N/m; default: two decades above the actual bearings")
+  command
+      .quantity("--to", request->map.to, kStiffness, "highest stiffness",
+                "two decades above the actual bearings")
       .type("K");
   command.option("--points", request->map.points, "number of stiffnesses; default: 61").type("N");
   command.option("--modes", request->map.modes, "number of lowest modes; default: 4").type("N");
   command.option("--bearing", request->map.nodes, "nodes whose bearings are varied").type("NODE");
   command.footer(kMapFooter);
   command.callback([request, &status] {
-    status =
-        printDocument(mapDocument(sceneOf(request->options), request->options.system, request->map),
-                      request->options);
+    status = printDocument(mapDocument(sceneOf(request->options), request->options.system,
+                                       request->map, chosenUnits(request->options.units)),
+                           request->options);
   });
 }
 

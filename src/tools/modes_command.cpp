@@ -36,7 +36,9 @@ int showModes(ModesOptions& given) {
         "--plot: draws the mode shapes of the model; must not be given with --measured");
   }
   given.request.system = given.options.system;
-  return printDocument(modesDocument(sceneOf(given.options), given.request), given.options);
+  return printDocument(
+      modesDocument(sceneOf(given.options), given.request, chosenUnits(given.options.units)),
+      given.options);
 }
 
 }  // namespace
@@ -48,13 +50,12 @@ void addModesCommand(const ProgramCommand& twin, int& status) {
   addReportOptions(command, given->options, "the lowest mode shapes");
   command.option("--measured", request->measured, "log of the running machine").type("LOG");
   command
-      .option("--speed", request->speed,
-              "speed of the shaft [rad/s]; default: the drive's highest; of a log the one kept for "
-              "longest")
+      .quantity("--speed", request->speed, kShaftSpeed, "speed of the shaft",
+                "the drive's highest; of a log the one kept for longest")
       .type("W");
   command
-      .option("--to", request->limit,
-              "highest frequency searched [rad/s]; default: slightly above the model's sixth")
+      .quantity("--to", request->limit, kWhirlFrequency, "highest frequency searched",
+                "slightly above the model's sixth")
       .type("W");
   command
       .option("--lcm-prefix", request->lcm_prefix, "prefix of the log's channels; default: TWIN_")

@@ -5,8 +5,6 @@
 #include "reports/asked_cost.h"
 #include "reports/drawings.h"
 #include "reports/monitored_log.h"
-#include "requests/shipped_scenes.h"
-#include "scene/scene_reader.h"
 #include "tools/alarm_settings_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -32,8 +30,10 @@ constexpr const char* kMonitorFooter =
     "  twin simulate demo --output demo.lcmlog && twin monitor demo demo.lcmlog\n"
     "  twin monitor pump.yaml night.lcmlog --settings monitor.yaml --output night.html";
 
+constexpr OptionQuantity kInstant{"a time", "s", -1.0e9, 1.0e9};
+
 struct MonitorRequest {
-  std::string scene;
+  SceneArgument scene;
   std::string log;
   std::optional<std::string> settings;
   std::optional<std::string> output, csv;
@@ -46,7 +46,7 @@ struct MonitorRequest {
 int monitor(const MonitorRequest& request) {
   requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
-  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
+  const BuiltScene scene = build(sceneOf(request.scene));
   const AlarmSettings settings = alarmSettingsOf(scene, request.settings);
   AskedCost cost;  // for the speeds at the start
   for (const SharedSystem& system : scene.systems) {
@@ -93,8 +93,8 @@ void addMonitorCommand(const ProgramCommand& twin, int& status) {
               "prefix of the recorded twin's channels; default: TWIN_")
       .type("PREFIX");
   command
-      .option("--spectrum-at", request->spectrum_at,
-              "end of the window of the full spectrum [s, simulated]; default: the end of the log")
+      .quantity("--spectrum-at", request->spectrum_at, kInstant,
+                "end of the window of the full spectrum, simulated time", "the end of the log")
       .type("S");
   addCsvOption(command, request->csv);
   addJsonOption(command, request->json);

@@ -81,12 +81,9 @@ double rateOf(const std::string& text) {
   return rate;
 }
 
-std::int64_t microseconds(const char* option, double seconds) {
-  constexpr double kLongest = 1.0e10;
-  if (!(seconds >= 0.0 && seconds <= kLongest)) {
-    throw InputError(
-        fmt::format("{}: expected 0 to {:g} s, found {:g} s", option, kLongest, seconds));
-  }
+constexpr OptionQuantity kLogTime{"a time", "s", 0.0, 1.0e10};
+
+std::int64_t microseconds(double seconds) {
   return std::llround(seconds * static_cast<double>(kSecondOfLog));
 }
 
@@ -103,12 +100,12 @@ class Player {
       throw InputError(fmt::format("{}: expected an LCM log, found no event in {} bytes",
                                    request.file, log_.size()));
     }
-    from_ = *log_.begin() + microseconds("--start", request.start);
+    from_ = *log_.begin() + microseconds(request.start);
     if (request.start > 0.0 && from_ > *log_.end()) {
       throw InputError(fmt::format("--start: expected at most the log's {:g} s, found {:g} s",
                                    inSeconds(*log_.end()), request.start));
     }
-    until_ = request.duration ? from_ + microseconds("--duration", *request.duration)
+    until_ = request.duration ? from_ + microseconds(*request.duration)
                               : std::numeric_limits<std::int64_t>::max();
     lcm_ = openLcm(request.url);
     run_.emplace(
@@ -331,8 +328,8 @@ void addPlayCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("play", kPlayDescription);
   const auto request = std::make_shared<PlayRequest>();
   command.option("LOG", request->file, "LCM log, such as demo.lcmlog").required().type("");
-  command.option("--start", request->start, "s, from the log's beginning; default: 0").type("S");
-  command.option("--duration", request->duration, "s, of the log; default: to its end").type("S");
+  command.quantity("--start", request->start, kLogTime, "from the log's beginning", "0").type("S");
+  command.quantity("--duration", request->duration, kLogTime, "of the log", "to its end").type("S");
   command.option("--rate", request->rate, "0.1 to 1000 times as recorded, or max; default: 1")
       .type("R");
   command.flag("--loop", request->loop, "repeat the log");

@@ -112,7 +112,7 @@ int plotStudy(const PlotRequest& request) {
     throw InputError(fmt::format("{}: needs a scene, found the results of a study",
                                  request.run.system ? "--system" : "--duration"));
   }
-  const Study study = readStudy(request.run.scene);
+  const Study study = readStudy(request.run.scene.name);
   if (study.optimization) {
     throw InputError(fmt::format("{}: an optimization has no points to draw", study.source));
   }
@@ -158,7 +158,7 @@ int plot(const PlotRequest& request) {
   if (request.results) {
     return plotStudy(request);
   }
-  if (isStudy(request.run.scene)) {
+  if (isStudy(request.run.scene.name)) {
     throw InputError("--results: missing; must be the folder written by `twin sweep`");
   }
   SimulationPlan plan = planSimulation(request.run);
@@ -204,6 +204,7 @@ void addPlotCommand(const ProgramCommand& twin, int& status) {
   command.option("--format", request->format, "svg, png, pdf, or json: its data; default: svg")
       .type("FORMAT");
   addInsistOption(command, request->run.insist);
+  command.takeUnits();
   command.footer(kPlotFooter);
   command.callback([request, &status] { status = plot(*request); });
 }

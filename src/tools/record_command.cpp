@@ -251,6 +251,9 @@ std::string recordText(const Recorder& recorder) {
   return out;
 }
 
+constexpr OptionQuantity kRecordingTime{"a time", "s", 0.0};
+constexpr OptionQuantity kSplitTime{"a time", "s", 0.001};
+
 void requireAbove(const char* option, const std::optional<double>& value, double least,
                   const char* unit) {
   if (value && !(*value >= least && std::isfinite(*value))) {
@@ -268,8 +271,6 @@ int record(const RecordRequest& request) {
   if (request.all && extension == ".mcap") {
     throw InputError("--all: an MCAP file has the twin's channels only; record FILE.lcmlog");
   }
-  requireAbove("--duration", request.duration, 0.0, "s");
-  requireAbove("--split-time", request.split_time, 0.001, "s");
   requireAbove("--split-size", request.split_size, 0.001, "MB");
   catchInterrupts();
   Recorder recorder(request);
@@ -290,10 +291,13 @@ void addRecordCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("record", kRecordDescription);
   const auto request = std::make_shared<RecordRequest>();
   command.option("FILE", request->file, "FILE.lcmlog or FILE.mcap").required().type("");
-  command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
+  command.quantity("--duration", request->duration, kRecordingTime, "wall time", "until Ctrl-C")
+      .type("S");
   command.option("--split-size", request->split_size, "MB per file; a new one is started then")
       .type("MB");
-  command.option("--split-time", request->split_time, "s per file; a new one is started then")
+  command
+      .quantity("--split-time", request->split_time, kSplitTime,
+                "time per file; a new one is started then")
       .type("S");
   addChannelOption(command, request->channels);
   command.flag("--all", request->all, "record every LCM channel, not only the twin's");

@@ -11,10 +11,9 @@
 #include "messages/input_error.h"
 #include "reports/drawings.h"
 #include "reports/rotor_report.h"
-#include "requests/shipped_scenes.h"
-#include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/stage_options.h"
 
 namespace whirl_twin {
 
@@ -36,10 +35,11 @@ constexpr const char* kReportFooter =
     "  twin report friswell_rotor --output pages --stage 500 0.4 0.015 1.6";
 
 struct ReportRequest {
-  std::string scene, output;
+  SceneArgument scene;
+  std::string output;
   std::optional<std::string> system;
   RotorReportRequest report;
-  std::vector<std::vector<double>> centrifugal, axial;
+  StageOptions stages;
 };
 
 void makeFolder(const std::string& name) {
@@ -64,18 +64,13 @@ std::string pageName(const std::string& scene, const std::string& system) {
 }
 
 int reportOf(ReportRequest& request) {
-  for (const std::vector<double>& s : request.centrifugal) {
-    request.report.stages.push_back({s[0], s[1], s[2], s[3], false});
-  }
-  for (const std::vector<double>& s : request.axial) {
-    request.report.stages.push_back({s[0], s[1], s[2], 1.0, true});
-  }
-  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
+  request.report.stages = request.stages.all();
+  const BuiltScene scene = build(sceneOf(request.scene));
   const auto systems = rotorSystems(scene, request.system);
   std::vector<ReportPage> pages;
   for (const RotorSystem& system : systems) {
     pages.push_back(rotorReportPage(scene, system, request.report));
-    pages.back().fact("scene", scenePath(request.scene));
+    pages.back().fact("scene", scene.scene.source);
     pages.back().fact("date", today());
     pages.back().fact("version", "whirl_twin " WHIRL_TWIN_VERSION);
   }
@@ -101,19 +96,10 @@ void addReportCommand(const ProgramCommand& twin, int& status) {
       .type("FOLDER");
   command.option("--system", request->system, "only this rotor").type("NAME");
   command
-      .option("--speed", request->report.speed,
-              "speed [rad/s] of modes, margins and stability; default: the drive's highest")
+      .quantity("--speed", request->report.speed, kRunningSpeed,
+                "speed of modes, margins and stability", "the drive's highest")
       .type("W");
-  command
-      .option("--stage", request->centrifugal,
-              "W, m, m, -: power, diameter, width, density ratio of a centrifugal stage")
-      .values(4)
-      .type("P D H RATIO");
-  command
-      .option("--axial-stage", request->axial,
-              "W, m, m: power, pitch diameter, blade height of an axial stage")
-      .values(3)
-      .type("P D H");
+  addStageOptions(command, request->stages);
   command.footer(kReportFooter);
   command.callback([request, &status] { status = reportOf(*request); });
 }

@@ -1,7 +1,5 @@
 #include "tools/report_options.h"
 
-#include "requests/shipped_scenes.h"
-#include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 
@@ -13,7 +11,16 @@ void addReportOptions(const ProgramCommand& command, ReportOptions& options,
   command.option("--system", options.system, "only this rotor").type("NAME");
   command.option("--plot", options.plot, drawn + ", FILE.svg or FILE.png").type("FILE");
   addCsvOption(command, options.csv);
+  addUnitsOption(command, options.units);
   addJsonOption(command, options.json);
+}
+
+void addUnitsOption(const ProgramCommand& command, std::optional<std::string>& units) {
+  command
+      .option("--units", units,
+              "units of the printed text, such as \"rpm, mil pp, deg\"; default: those of the file "
+              "~/.config/whirl_twin/units, else SI; JSON and CSV are always in SI")
+      .type("LIST");
 }
 
 void addJsonOption(const ProgramCommand& command, bool& json) {
@@ -53,7 +60,7 @@ int printDocument(const Document& document, const ReportOptions& options) {
 Scene sceneOf(const ReportOptions& options) {
   requirePictureName(options.plot);
   requireCsvName(options.csv);
-  return readSceneFile(scenePath(options.scene));
+  return sceneOf(options.scene);
 }
 
 }  // namespace whirl_twin

@@ -9,21 +9,25 @@
 #include "reports/csv_table.h"
 #include "reports/drawings.h"
 #include "reports/output.h"
+#include "reports/shown_units.h"
 #include "requests/document.h"
+#include "requests/scene_argument.h"
 #include "scene/scene.h"
 #include "tools/command.h"
 
 namespace whirl_twin {
 
 struct ReportOptions {
-  std::string scene;
-  std::optional<std::string> system, plot, csv;
+  SceneArgument scene;
+  std::optional<std::string> system, plot, csv, units;
   bool json = false;
 };
 
-/// SCENE, --system, --plot (`drawn`: what it draws), --csv, --json.
+/// SCENE, --set, --system, --plot (`drawn`: what it draws), --csv, --units, --json.
 void addReportOptions(const ProgramCommand& command, ReportOptions& options,
                       const std::string& drawn);
+/// --units alone.
+void addUnitsOption(const ProgramCommand& command, std::optional<std::string>& units);
 /// --json alone.
 void addJsonOption(const ProgramCommand& command, bool& json);
 

@@ -48,11 +48,10 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
   ResponseRequest* const request = &given->request;
   ForcedRequest* const forced = &given->force;
   addReportOptions(command, given->options, "the picture");
-  command.option("--from", request->range.from, "rad/s; default: 0").type("W");
+  command.quantity("--from", request->range.from, kShaftSpeed, "lowest speed", "0").type("W");
   command
-      .option("--to", request->range.to,
-              "rad/s; default: 1.2 times the drive's highest speed; of a force slightly above the "
-              "sixth mode")
+      .quantity("--to", request->range.to, kShaftSpeed, "highest speed",
+                "1.2 times the drive's; of a force slightly above the sixth mode")
       .type("W");
   command.option("--points", request->range.points, "minimum number of speeds; default: 200")
       .type("N");
@@ -67,7 +66,7 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
       .needs(force)
       .type("NAME");
   command
-      .option("--speed", forced->speed, "speed of the shaft [rad/s]; default: the drive's highest")
+      .quantity("--speed", forced->speed, kShaftSpeed, "speed of the shaft", "the drive's highest")
       .needs(force)
       .type("W");
   addInsistOption(command, request->insist);
@@ -77,8 +76,9 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
     if (force.given()) {
       given->request.force = given->force;
     }
-    status =
-        printDocument(responseDocument(sceneOf(given->options), given->request), given->options);
+    status = printDocument(responseDocument(sceneOf(given->options), given->request,
+                                            chosenUnits(given->options.units)),
+                           given->options);
   });
 }
 
@@ -87,12 +87,12 @@ void addOrbitCommand(const ProgramCommand& twin, int& status) {
       twin.subcommand("orbit", "Unbalance orbits at one speed, at every station of the rotors.");
   const auto given = std::make_shared<ResponseOptions>();
   addReportOptions(command, given->options, "the picture");
-  command.option("--speed", given->speed, "speed of the shaft [rad/s]").required().type("W");
+  command.quantity("--speed", given->speed, kShaftSpeed, "speed of the shaft").required().type("W");
   command.footer(kOrbitFooter);
   command.callback([given, &status] {
-    status =
-        printDocument(orbitDocument(sceneOf(given->options), given->options.system, given->speed),
-                      given->options);
+    status = printDocument(orbitDocument(sceneOf(given->options), given->options.system,
+                                         given->speed, chosenUnits(given->options.units)),
+                           given->options);
   });
 }
 

@@ -11,9 +11,7 @@
 #include "accuracy/step_choice.h"
 #include "messages/input_error.h"
 #include "reports/output.h"
-#include "requests/shipped_scenes.h"
 #include "requests/simulation.h"
-#include "scene/scene_reader.h"
 #include "tools/alarm_settings_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -49,7 +47,7 @@ constexpr const char* kServeFooter =
     "  twin serve pump.yaml --address 0.0.0.0 --read-only";
 
 struct ServeRequest {
-  std::string scene;
+  SceneArgument scene;
   int port = 8765;
   std::string address = "127.0.0.1";
   std::vector<std::string> origins;
@@ -86,7 +84,7 @@ ServeSettings settingsOf(const ServeRequest& request) {
 
 int serve(const ServeRequest& request) {
   ServeSettings settings = settingsOf(request);
-  const Scene scene = withStepsChosen(readSceneFile(scenePath(request.scene)));
+  const Scene scene = withStepsChosen(sceneOf(request.scene));
   warnOfExternalControllers(scene);
   settings.alarms = alarmSettingsOf(build(scene), request.settings);
   catchInterrupts();

@@ -56,14 +56,14 @@ std::string extensionOf(const std::string& output) {
 
 /// The scene with the replacements of the options.
 state::SceneText simulatedScene(const SimulationRequest& request, const SimulationPlan& plan) {
-  YAML::Node tree = readYamlFile(plan.path, "a scene", "systems");
+  YAML::Node tree = YAML::Clone(plan.tree);
   if (request.step) {
     tree["step"] = *request.step;
   }
   for (const std::size_t i : request.integrator ? plan.systems : std::vector<std::size_t>{}) {
     tree["systems"][plan.scene.systems[i].name]["integrator"] = *request.integrator;
   }
-  return sceneText(tree, std::filesystem::absolute(plan.path).string());
+  return sceneText(tree, plan.source);
 }
 
 std::unique_ptr<SampleWriter> makeWriter(const SimulationRequest& request,
@@ -169,6 +169,7 @@ void addSimulateCommand(const ProgramCommand& twin, int& status) {
   command.option("--system", request->system, "show this system only").type("NAME");
   command.flag("--json", request->json, "print the final state as one JSON object");
   addInsistOption(command, request->insist);
+  command.takeUnits();
   command.footer(kSimulateFooter);
   command.callback([request, &status] { status = simulate(*request); });
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -196,9 +195,6 @@ class Spy {
 
 int spy(const SpyRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
-  if (request.duration && !(*request.duration > 0.0 && std::isfinite(*request.duration))) {
-    throw InputError(fmt::format("--duration: must be above 0 s, found {:g}", *request.duration));
-  }
   catchInterrupts();
   Spy spy(request);
   complain(fmt::format("twin spy: listening to {}\n", request.url));
@@ -211,7 +207,8 @@ int spy(const SpyRequest& request) {
 void addSpyCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("spy", kSpyDescription);
   const auto request = std::make_shared<SpyRequest>();
-  command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
+  command.quantity("--duration", request->duration, kListeningTime, "wall time", "until Ctrl-C")
+      .type("S");
   command.flag("--once", request->once, "print one table, of one second or of --duration");
   addChannelOption(command, request->channels);
   command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");

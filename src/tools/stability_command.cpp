@@ -1,9 +1,9 @@
 #include <memory>
-#include <vector>
 
 #include "requests/rotor_requests.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
+#include "tools/stage_options.h"
 
 namespace whirl_twin {
 
@@ -24,23 +24,14 @@ constexpr const char* kStabilityFooter =
     "\n"
     "Examples:\n"
     "  twin stability friswell_rotor --plot level_one.svg\n"
-    "  twin stability friswell_rotor --stage 500 0.4 0.015 1.6 --stage 400 0.4 0.012 1.5";
+    "  twin stability friswell_rotor --stage 500 0.4 0.015 1.6 --stage 400 0.4 0.012 1.5\n"
+    "  twin stability friswell_rotor --stage \"0.5 kW\" \"400 mm\" \"15 mm\" 1.6";
 
 struct StabilityOptions {
   ReportOptions options;
   LevelOneRequest level_one;
-  std::vector<std::vector<double>> centrifugal, axial;
+  StageOptions stages;
 };
-
-/// Each given stage, with its number of values.
-void takeStages(StabilityOptions& request) {
-  for (const std::vector<double>& s : request.centrifugal) {
-    request.level_one.stages.push_back({s[0], s[1], s[2], s[3], false});
-  }
-  for (const std::vector<double>& s : request.axial) {
-    request.level_one.stages.push_back({s[0], s[1], s[2], 1.0, true});
-  }
-}
 
 }  // namespace
 
@@ -49,27 +40,19 @@ void addStabilityCommand(const ProgramCommand& twin, int& status) {
   const auto request = std::make_shared<StabilityOptions>();
   addReportOptions(command, request->options, "the diagram");
   command
-      .option("--speed", request->level_one.speed,
-              "speed of the shaft [rad/s]; default: the drive's highest")
+      .quantity("--speed", request->level_one.speed, kRunningSpeed, "speed of the shaft",
+                "the drive's highest")
       .type("W");
   command.option("--at", request->level_one.at, "station where it acts; default: at mid-span")
       .type("NAME");
-  command
-      .option("--stage", request->centrifugal,
-              "W, m, m, -: power, diameter, width, density ratio of a centrifugal stage")
-      .values(4)
-      .type("P D H RATIO");
-  command
-      .option("--axial-stage", request->axial,
-              "W, m, m: power, pitch diameter, blade height of an axial stage")
-      .values(3)
-      .type("P D H");
+  addStageOptions(command, request->stages);
   command.footer(kStabilityFooter);
   command.callback([request, &status] {
-    takeStages(*request);
-    status = printDocument(
-        stabilityDocument(sceneOf(request->options), request->options.system, request->level_one),
-        request->options);
+    request->level_one.stages = request->stages.all();
+    status =
+        printDocument(stabilityDocument(sceneOf(request->options), request->options.system,
+                                        request->level_one, chosenUnits(request->options.units)),
+                      request->options);
   });
 }
 

@@ -12,8 +12,6 @@
 #include "reports/rotor_systems.h"
 #include "reports/tradeoff_report.h"
 #include "requests/durations.h"
-#include "requests/shipped_scenes.h"
-#include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
@@ -41,7 +39,7 @@ constexpr const char* kTradeoffFooter =
     "  twin tradeoff double_pendulum.yaml --system rods --duration 30 --json";
 
 struct TradeoffRequest {
-  std::string scene;
+  SceneArgument scene;
   std::optional<std::string> system, duration, plot, output;
   bool json = false;
   bool insist = false;
@@ -71,7 +69,7 @@ std::int64_t horizonOf(const Scene& one) {
 int tradeoffOf(const TradeoffRequest& request) {
   requirePictureName(request.plot);
   requireTableName(request.output);
-  const Scene scene = readSceneFile(scenePath(request.scene));
+  const Scene scene = sceneOf(request.scene);
   const std::vector<std::size_t> systems = selectedSystems(scene, request.system);
   std::optional<std::int64_t> asked;  // [ns]
   if (request.duration) {
@@ -131,6 +129,7 @@ void addTradeoffCommand(const ProgramCommand& twin, int& status) {
   command.option("--output", request->output, "the rows as a table, FILE.csv").type("FILE");
   addJsonOption(command, request->json);
   addInsistOption(command, request->insist);
+  command.takeUnits();
   command.footer(kTradeoffFooter);
   command.callback([request, &status] { status = tradeoffOf(*request); });
 }

@@ -12,6 +12,7 @@
 #endif
 #include "messages/input_error.h"
 #include "messages/names.h"
+#include "messages/units.h"
 #include "reports/output.h"
 #include "scene/node_reader.h"
 #include "scene/scene_reader.h"
@@ -35,7 +36,9 @@ constexpr const char* kTwinFooter =
     "  twin simulate demo --sample 0.01 --output demo.csv\n"
     "  twin plot demo            its systems and their motions, as pictures\n"
     "  twin routh 1 2 3 4        is s^3 + 2 s^2 + 3 s + 4 stable\n"
-    "`twin COMMAND --help` prints more. All values are in SI units: m, kg, s, rad, N.\n"
+    "`twin COMMAND --help` prints more. Numbers are in SI units (m, kg, s, rad, N) or have a "
+    "unit:\n"
+    "\"800 rpm\", 250 mm, \"5 mil\" (`twin units`).\n"
     "\n"
     "Results go to standard output, messages to standard error.\n"
     "Exit status: 0 done, 1 the run failed (diverged, a file cannot be written), 2 bad input.";
@@ -69,6 +72,9 @@ void explain(const CLI::App& twin, const CLI::ParseError& error) {
         rest.compare(0, 2, "--") == 0 ? nearestName(rest, optionNames(command)) : "";
     if (!near.empty()) {
       what = fmt::format("unknown option '{}'; did you mean '{}'?", rest, near);
+    } else if (isUnit(rest)) {
+      what = fmt::format("a number and its unit must be in quotes: \"800 rpm\"; found {}",
+                         inQuotes(rest));
     }
   }
   complain(fmt::format("{}: {}\n`{} --help` prints its usage.\n", name, what, name));
@@ -103,6 +109,7 @@ int run(int argc, const char* const* argv) {
   addScenesCommand(commands, status);
   addModelsCommand(commands, status);
   addControllersCommand(commands, status);
+  addUnitsCommand(commands, status);
   addNewCommand(commands, status);
   addImportCommand(commands, status);
   addSimulateCommand(commands, status);

@@ -291,9 +291,6 @@ class Watch {
 
 int watch(const WatchRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
-  if (request.duration && !(*request.duration > 0.0 && std::isfinite(*request.duration))) {
-    throw InputError(fmt::format("--duration: must be above 0 s, found {:g}", *request.duration));
-  }
   catchInterrupts();
   Watch watch(request);
   complain(fmt::format("twin watch: listening to {} for {}*\n", request.url, request.lcm_prefix));
@@ -306,7 +303,8 @@ int watch(const WatchRequest& request) {
 void addWatchCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("watch", kWatchDescription);
   const auto request = std::make_shared<WatchRequest>();
-  command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
+  command.quantity("--duration", request->duration, kListeningTime, "wall time", "until Ctrl-C")
+      .type("S");
   command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");
   command
       .option("--lcm-prefix", request->lcm_prefix, "prefix of the twin's channels; default: TWIN_")

@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"WithUnit",
                rotorScene("mass: 1 lbf, stiffness: 100, speed: 5"),
                {"systems.rotor.parameters.mass: must be > 0 kg, found '1 lbf': 'lbf' cannot be "
-                "converted to kg"}},
+                "converted to kg; write 'lb'"}},
         Broken{
             "NamesOfOtherPrograms",
             "{step: 0.001, systems: {r: {model: flexible_rotor, parameters: {E: 2e11, density: "

@@ -1,6 +1,7 @@
 // The sensors of a scene: valid settings, and rejected ones with their error texts.
 #include "scene/sensor_reader.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -19,7 +20,7 @@ std::string diagnosticsOf(const std::string& sensors) {
   try {
     with(sensors);
   } catch (const SceneError& error) {
-    return error.what();
+    return fmt::format("{}", fmt::join(error.errors(), "\n"));
   }
   return "";
 }

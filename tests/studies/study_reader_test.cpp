@@ -50,6 +50,42 @@ require: {peak: "< 2.0e-4", critical: ["> 80", "<= 120"]}
   EXPECT_NE(study.valuesAt(4999), study.valuesAt(0));
 }
 
+TEST(StudyReader, NumbersHaveUnits) {
+  const StudyFiles files;
+  const Study study = readStudy(files.study(R"(
+vary:
+  rotor.stiffness: {uniform: [8 N/mm, 12000]}
+  rotor.initial.x: {normal: [0 m, 10 um]}
+  shaft.profile[0].speed: {list: [1200 rpm, 20 Hz]}
+  step: {list: [0.5 ms, 1000 us]}
+design: {latin_hypercube: 50}
+run: {duration: 0.01 min, analyze: [critical_speeds]}
+measure: {peak: max(rotor.whirl.radius), critical: "critical_speeds[0]"}
+require: {peak: "< 5 mil", critical: ["> 800 rpm", "<= 20Hz"]}
+)"));
+  EXPECT_DOUBLE_EQ(study.vary[0].distribution.low, 8000.0);
+  EXPECT_DOUBLE_EQ(study.vary[0].distribution.high, 12000.0);
+  EXPECT_DOUBLE_EQ(study.vary[1].distribution.deviation, 1e-5);
+  EXPECT_DOUBLE_EQ(study.vary[2].distribution.list[0], 125.66370614359172);
+  EXPECT_DOUBLE_EQ(study.vary[2].distribution.list[1], 125.66370614359172);
+  EXPECT_EQ(study.vary[2].written_unit, "");
+  // Only the scene's reader knows the unit of this one: it gets the number with its unit.
+  EXPECT_EQ(study.vary[3].written_unit, "ms");
+  EXPECT_DOUBLE_EQ(study.vary[3].distribution.list[1], 1.0);
+  EXPECT_DOUBLE_EQ(*study.duration, 0.6);
+  EXPECT_DOUBLE_EQ(study.requirements[0].limit, 5 * 2.54e-5);
+  EXPECT_DOUBLE_EQ(study.requirements[1].limit, 83.77580409572782);
+  EXPECT_DOUBLE_EQ(study.requirements[2].limit, 125.66370614359172);
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.stiffness", "{uniform: [1 kg, 2]}")),
+              "vary.rotor.stiffness.uniform[0]: must be a finite number in N/m, found '1 kg': 'kg' "
+              "cannot be converted to N/m");
+  EXPECT_SAYS(inputErrorOf(files, varied("step", "{list: [1 ms, 0.002]}")), "vary.step.list[1]");
+  EXPECT_SAYS(inputErrorOf(files, varied("step", "{list: [1 ms, 2 m]}")), "vary.step.list[1]");
+  EXPECT_SAYS(inputErrorOf(files, varied("rotor.stiffness", "{uniform: [1, 2]}") +
+                                      "require: {critical: \"< 5 m\"}\n"),
+              "found '< 5 m': 'm' cannot be converted to rad/s");
+}
+
 TEST(StudyReader, TellsAllErrorsAtOnceEachAtItsPlace) {
   const StudyFiles files;
   const std::string said = inputErrorOf(files, R"(

@@ -211,7 +211,7 @@ TEST(Check, LooksThroughAHundredThousandKeysInTime) {
   }
   const Ending end = twin({"check", directory.write("many.yaml", scene)});
   EXPECT_EQ(end.status, 2);
-  EXPECT_EQ(linesOf(end.err).size(), 100000u);
+  EXPECT_EQ(linesOf(end.err).back(), "and 99990 more");
 }
 
 // A scene that docs/scenes.md shows whole begins with its name.

@@ -237,7 +237,7 @@ TEST(RotorCommands, DrawPictures) {
     command.insert(command.end(), {"--plot", picture});
     const Ending end = twin(command);
     EXPECT_EQ(end.status, 0) << end.err;
-    EXPECT_EQ(Json::parse(contentsOf(picture))["kind"], "charts");
+    EXPECT_EQ(nlohmann::json::parse(contentsOf(picture))["kind"], "charts");
   }
 }
 
@@ -365,7 +365,7 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedCommand{{"campbell", kDemo, "--from", "50", "--to", "20"},
                        "--from, --to: --from must be < --to, found 50 and 20 rad/s"},
         RefusedCommand{{"campbell", kDemo, "--from", "-1"},
-                       "--from: expected a shaft speed from 0 to 1e+06 rad/s, found -1"},
+                       "--from: must be a shaft speed from 0 to 1e+06 rad/s, found -1"},
         RefusedCommand{{"response", kDemo, "--points", "1"},
                        "--points: expected from 2 to 10000, found 1"},
         RefusedCommand{{"response", kDemo, "--plot", "bode.gif"},
@@ -375,7 +375,7 @@ INSTANTIATE_TEST_SUITE_P(
                        "--station: no station 'disk' on rotor (jeffcott_rotor); did you mean "
                        "'disc'?"},
         RefusedCommand{{"orbit", kDemo, "--speed", "-3"},
-                       "--speed: expected a shaft speed >= 0 rad/s, found -3"}));
+                       "--speed: must be a shaft speed from 0 to 1e+06 rad/s, found -3"}));
 
 }  // namespace rotor_commands_test
 }  // namespace whirl_twin

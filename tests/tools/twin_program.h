@@ -91,6 +91,7 @@ inline pid_t startTwin(const std::vector<std::string>& arguments, const std::str
   if (child == 0) {
     ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+    ::setenv("XDG_CONFIG_HOME", "/nonexistent", 0);  // no units that a user prefers
     ::alarm(kHangs);
     ::execv(WHIRL_TWIN_PROGRAM, argv.data());
     ::_exit(127);
