@@ -24,7 +24,9 @@ namespace whirl_twin {
 
 struct Governor {
   static constexpr const char* kName = "governor";
-  static constexpr const char* kSummary = "centrifugal governor on an engine under load";
+  static constexpr const char* kSummary =
+      "centrifugal governor on an engine under load; the moment of its balls on the shaft is "
+      "neglected";
   static constexpr std::size_t kDof = 2;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
