@@ -173,7 +173,7 @@ systems:
 TEST(Tradeoff, RefusesNamesOfFilesAndDurationsItCannotMean) {
   for (const auto& [option, value] :
        std::vector<std::pair<std::string, std::string>>{{"--output", "rows.txt"},
-                                                        {"--plot", "rows.pdf"},
+                                                        {"--plot", "rows.gif"},
                                                         {"--duration", "-1"},
                                                         {"--system", "none"}}) {
     const Ending end = twin({"tradeoff", "demo", option, value});
