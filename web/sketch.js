@@ -122,6 +122,10 @@ export class SketchView {
 
   rod(context, one) {
     const width = Math.max(2, 2 * one.radius * this.scale);
+    const [from, to] = [this.project(one.from), this.project(one.to)];
+    if (Math.hypot(to[0] - from[0], to[1] - from[1]) < 1) {
+      return this.ball(context, {at: one.from, radius: one.radius, role: one.role});  // seen from its end
+    }
     context.lineCap = width > 6 ? "butt" : "round";
     this.path(context, [one.from, one.to], color("outline"), width + 1.5);
     this.path(context, [one.from, one.to], color(one.role), width);
@@ -154,12 +158,14 @@ export class SketchView {
     const near = this.project(add(one.at, axis, half))[2] < this.project(add(one.at, axis, -half))[2] ? half : -half;
     const circle = along => Array.from({length: CORNERS}, (_, k) => rim(along, 2 * Math.PI * k / CORNERS));
     const back = circle(-near), front = circle(near);
+    this.polygon(context, back, color("rim"));
     for (let k = 0; k < CORNERS; ++k) {
       const next = (k + 1) % CORNERS;
       context.beginPath();
       [back[k], back[next], front[next], front[k]].forEach(
         point => context.lineTo(...this.project(point).slice(0, 2)));
-      context.fillStyle = context.strokeStyle = color("support");
+      context.fillStyle = context.strokeStyle = color("rim");
+      context.lineWidth = 0.5;
       context.fill();
       context.stroke();
     }
