@@ -188,7 +188,7 @@ function showStability(place, margin) {
   }
   const verdict = margin.verdict_name.toLowerCase().replaceAll("_", " ");
   place.className = "stability";
-  place.replaceChildren(make("strong", {className: /unstable|diver|grow/.test(verdict) ? "bad" : "", textContent: verdict}),
+  place.replaceChildren(make("strong", {className: verdict === "asymptotically stable" ? "good" : /unstable|no motion/.test(verdict) ? "bad" : "", textContent: verdict}),
                         parts.length ? `: ${parts.join(", ")}` : "");
 }
 

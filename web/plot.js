@@ -72,13 +72,16 @@ export class Traces {
     context.fillStyle = color("faint");
     context.lineWidth = 1;
     context.textAlign = "right";
-    for (const tick of ticks(low * scale.factor, high * scale.factor, 3)) {
+    const marks = ticks(low * scale.factor, high * scale.factor, 3);
+    const apart = marks.length > 1 ? marks[1] - marks[0] : 1;
+    const digits = Math.max(4, Math.ceil(Math.log10(Math.max(...marks.map(Math.abs), apart) / apart)) + 1);
+    for (const tick of marks) {
       const y = up(tick / scale.factor);
       context.beginPath();
       context.moveTo(LEFT, y);
       context.lineTo(width - RIGHT, y);
       context.stroke();
-      context.fillText(short(tick), LEFT - 5, y + 4);
+      context.fillText(short(tick, Math.min(12, digits)), LEFT - 5, y + 4);
     }
     context.textAlign = "center";
     for (const tick of ticks(end - WINDOW, end, width / 110)) {

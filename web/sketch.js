@@ -122,6 +122,16 @@ export class SketchView {
 
   rod(context, one) {
     const width = Math.max(2, 2 * one.radius * this.scale);
+    const [from, to] = [this.project(one.from), this.project(one.to)];
+    if (Math.hypot(to[0] - from[0], to[1] - from[1]) < 1) {
+      return this.ball(context, {at: one.from, radius: one.radius, role: one.role});  // seen from its end
+    }
+    const along = sub(one.to, one.from);
+    const length = Math.hypot(...along);
+    if (this.picture.sketch.spatial && length < 2 * one.radius) {  // rather a ring than a rod
+      return this.cylinder(context, {at: add(one.from, along, 0.5), axis: along, radius: one.radius, thickness: length},
+                           color(one.role), color(one.role));
+    }
     context.lineCap = width > 6 ? "butt" : "round";
     this.path(context, [one.from, one.to], color("outline"), width + 1.5);
     this.path(context, [one.from, one.to], color(one.role), width);
@@ -144,6 +154,12 @@ export class SketchView {
   }
 
   disc(context, one) {
+    const {rim, near} = this.cylinder(context, one, color(one.role), color("rim"));
+    this.path(context, [add(one.at, unit(one.axis), near), rim(near, one.angle)], color("mark"), 3);
+  }
+
+  /// Returns points of its rim, by the distance along the axis and the angle, and which end is near.
+  cylinder(context, one, face, side) {
     const axis = unit(one.axis);
     const start = Math.abs(axis[2]) > 0.9 ? [1, 0, 0] : [0, 0, 1];
     const first = unit(add(start, axis, -(start[0] * axis[0] + start[1] * axis[1] + start[2] * axis[2])));
@@ -154,17 +170,19 @@ export class SketchView {
     const near = this.project(add(one.at, axis, half))[2] < this.project(add(one.at, axis, -half))[2] ? half : -half;
     const circle = along => Array.from({length: CORNERS}, (_, k) => rim(along, 2 * Math.PI * k / CORNERS));
     const back = circle(-near), front = circle(near);
+    this.polygon(context, back, side);
     for (let k = 0; k < CORNERS; ++k) {
       const next = (k + 1) % CORNERS;
       context.beginPath();
       [back[k], back[next], front[next], front[k]].forEach(
         point => context.lineTo(...this.project(point).slice(0, 2)));
-      context.fillStyle = context.strokeStyle = color("support");
+      context.fillStyle = context.strokeStyle = side;
+      context.lineWidth = 0.5;
       context.fill();
       context.stroke();
     }
-    this.polygon(context, front, color(one.role));
-    this.path(context, [add(one.at, axis, near), rim(near, one.angle)], color("mark"), 3);
+    this.polygon(context, front, face);
+    return {rim, near};
   }
 
   box(context, one) {

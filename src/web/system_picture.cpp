@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kDeflection = 0.12;  // of the picture's size, of a magnified motion
+constexpr double kDeflection = 0.07;  // of the picture's size, of a magnified motion
 constexpr double kForgetting = 0.98;  // of the radius of late, from picture to picture
 constexpr double kTiny = 1.0e-15;     // of the picture's size: no motion
 

@@ -320,6 +320,8 @@ void WebServer::Io::accept(WebServer& server) {
         }
       });
     }
+    Error ignored;
+    socket.set_option(Tcp::no_delay(true), ignored);  // an answer must not wait for an ACK
     if (server.connections_ + sockets.size() < server.limits_.connections) {
       std::make_shared<Connection>(server, std::move(socket))->read();
     } else {
