@@ -228,9 +228,8 @@ std::vector<Chart> rotorCharts(const PlotHistory& history) {
   std::vector<Chart> charts{historyChart(history, "whirl radius", "m", whirl.about.whirl_radius)};
   if (!whirl.aside.empty()) {
     charts.front().y.label = "whirl radius about its mean (m)";
-    charts.front().series.front().name = "whirl about its mean";
-    charts.front().series.push_back({"distance of the orbit's mean from the axis", history.time,
-                                     whirl.aside, Pen{ink::kGrey, 1.6}});
+    // In a chart of its own: a sag is often a thousand times the whirl.
+    charts.push_back(historyChart(history, "orbit's mean from the axis", "m", whirl.aside));
   }
   const std::vector<double> lag = phaseLagHistory(whirl.about);
   if (anyFinite(lag)) {

@@ -32,7 +32,7 @@ std::string tradeoffRowText(const TradeoffReport& report, std::size_t index) {
 /// Rounding is drawn here where an error is zero.
 constexpr double kErrorDrawnForZero = 1.0e-16;
 
-/// Each method has one, whichever others there are: the twelfth is the first again.
+/// Each method has one, whichever others there are: the twelfth is the first, dashed.
 Pen methodPen(const std::string& integrator) {
   static constexpr std::array kInks{ink::kBlue,   ink::kVermilion, ink::kGreen, ink::kPurple,
                                     ink::kOrange, ink::kSkyBlue,   ink::kNavy,  ink::kGrey,
@@ -40,7 +40,12 @@ Pen methodPen(const std::string& integrator) {
   const auto& methods = stepMethods();
   const auto method = std::find_if(methods.begin(), methods.end(),
                                    [&](const StepMethod& m) { return m.name == integrator; });
-  return {kInks[static_cast<std::size_t>(method - methods.begin()) % kInks.size()], 1.8};
+  const auto index = static_cast<std::size_t>(method - methods.begin());
+  Pen pen{kInks[index % kInks.size()], 1.8};
+  if (index >= kInks.size()) {
+    pen.dash = {6.0, 4.0};
+  }
+  return pen;
 }
 
 }  // namespace

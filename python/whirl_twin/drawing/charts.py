@@ -252,7 +252,7 @@ def _add_series(
     ink = 0.0 if marked else _ink(ax, x, y, pen["width"])
     if ink > _DENSE:  # a band: of a finer line the inside, and what is behind it, are seen
         line.set_linewidth(max(0.4, pen["width"] * _DENSE / ink) * PX)
-        line.set_alpha(0.8)
+        line.set_alpha(0.8 if ink < 4.0 * _DENSE else 0.55)
     if series["line"] and not series["fill"] and not marked:
         alone = _alone(x, y)
         if alone.any():  # a point between two gaps has no line: it is a dot

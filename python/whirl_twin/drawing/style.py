@@ -44,19 +44,12 @@ NOTE = 12.0
 LINE = 1.8  # width of a curve
 
 _SETTINGS = {
-    "font.family": ["sans-serif"],
-    "font.sans-serif": ["DejaVu Sans"],
     "text.parse_math": False,  # "$" in a label is a dollar
     "text.color": BLACK,
     "svg.fonttype": "none",  # text stays text
     "svg.hashsalt": "whirl_twin",
     "pdf.fonttype": 42,
     "figure.dpi": DPI,
-    "figure.facecolor": "white",
-    "savefig.facecolor": "white",
-    "path.simplify": True,
-    "axes.unicode_minus": True,
-    "axes.facecolor": "white",
     "axes.edgecolor": GREY,
     "axes.labelcolor": BLACK,
     "axes.linewidth": 1.2 * PX,
@@ -64,7 +57,6 @@ _SETTINGS = {
     "axes.labelsize": LABEL * PX,
     "axes.labelpad": 4.5 * PX,
     "axes.titlecolor": BLACK,
-    "axes.grid": False,
     "grid.color": GRID,
     "grid.linewidth": 1.0 * PX,
     "lines.solid_capstyle": "round",
@@ -81,9 +73,6 @@ _SETTINGS = {
     "ytick.major.size": 4.0 * PX,
     "xtick.major.pad": 4.0 * PX,
     "ytick.major.pad": 4.0 * PX,
-    "xtick.minor.size": 2.0 * PX,
-    "ytick.minor.size": 2.0 * PX,
-    "hatch.linewidth": 0.6,
 }
 
 
@@ -101,9 +90,7 @@ def context() -> Iterator[None]:
         # Letters that the font does not have: an SVG shows them all the same.
         warnings.filterwarnings("ignore", message="Glyph")
         matplotlib.rcdefaults()
-        matplotlib.rcParams.update(
-            {name: value for name, value in _SETTINGS.items() if name in matplotlib.rcParams}
-        )
+        matplotlib.rcParams.update(_SETTINGS)
         try:
             yield
         finally:

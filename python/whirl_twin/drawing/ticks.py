@@ -7,7 +7,7 @@ import re
 from typing import Iterable, List, Sequence, Tuple
 
 import numpy as np
-from matplotlib.ticker import Formatter, Locator, NullFormatter
+from matplotlib.ticker import Formatter, Locator, LogLocator, NullFormatter, NullLocator
 
 from . import style
 
@@ -216,7 +216,9 @@ def set_axis(axis, fields: dict, label: str, most, length: float, exponent=None)
         exponent = 0 if fields["logarithmic"] or not ticks else exponent_of(ticks)
     axis.set_major_formatter(TickLabels(fields["logarithmic"], exponent))
     if fields["logarithmic"]:
-        axis.set_minor_locator(FineTicks())
+        low, high = sorted(axis.get_view_interval())
+        fine = 5.0 <= high / low <= 1.1e6  # the 2nd to 9th parts of its decades
+        axis.set_minor_locator(LogLocator(subs=range(2, 10), numticks=99) if fine else NullLocator())
         axis.set_minor_formatter(NullFormatter())
     axis.set_tick_params(which="minor", length=0.0)
     text, size = style.fitted(scaled_label(label, exponent), style.LABEL, length)
@@ -255,21 +257,6 @@ class Ticks(Locator):
 def _same(tick: float, end: float, other_end: float) -> bool:
     """Is a tick at an end of the axis?"""
     return abs(tick - end) <= 1.0e-9 * min(abs(end - other_end), max(abs(tick), abs(end)))
-
-
-class FineTicks(Locator):
-    """The 2nd to 9th parts of the decades of a logarithmic axis of at most six decades."""
-
-    def __call__(self) -> List[float]:
-        return self.tick_values(*self.axis.get_view_interval())
-
-    def tick_values(self, low: float, high: float) -> List[float]:
-        low, high = sorted((float(low), float(high)))
-        if low <= 0.0 or high / low > 1.1e6 or high / low < 5.0:
-            return []
-        decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-        ticks = (decimal(factor, decade) for decade in decades for factor in range(2, 10))
-        return [tick for tick in ticks if low <= tick <= high]
 
 
 def most_across(
