@@ -134,9 +134,12 @@ class Runs(unittest.TestCase):
     def test_loads_and_runs_keep_no_memory(self):
         count = int(os.environ.get("WHIRL_TWIN_RUNS", "300"))
 
+        tree = wt.Scene.load("demo").with_(rotor={"integrator": "exponential"},
+                                           pendulum={"integrator": "runge_kutta_4"}).to_dict()
+
         def work(times):
             for _ in range(times):
-                scene = wt.Scene.load("demo").with_(rotor={"integrator": "auto"})
+                scene = wt.Scene.load(tree).with_(rotor={"mass": 2.1})
                 wt.simulate(scene, 0.01)["rotor.whirl_radius"].max()
                 wt.routh([1, 2, 3])
 
