@@ -75,9 +75,9 @@ class Scenes(unittest.TestCase):
         self.assertEqual(heavier.to_dict()["systems"][system]["parameters"]["discs"][0]["mass"], "33 kg")
 
     def test_with_changes_controllers_and_removes_keys(self):
-        scene = wt.Scene.load("levitation").with_(magnets={"kp": 7.0e3, "delay": None})
+        scene = wt.Scene.load("levitation").with_(magnets={"kp": 7e3, "delay": None})
         magnets = scene.to_dict()["controllers"]["magnets"]
-        self.assertEqual((magnets["parameters"]["kp"], "delay" in magnets), (7.0e3, False))
+        self.assertEqual((magnets["parameters"]["kp"], "delay" in magnets), (7e3, False))
 
     def test_with_names_what_is_not_there(self):
         scene = wt.Scene.load(JEFFCOTT)
