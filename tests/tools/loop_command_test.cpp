@@ -264,7 +264,8 @@ TEST(Loop, IsDrawn) {
 TEST(Loop, NeedsAController) {
   const Ending end = twin({"loop", "demo"});
   EXPECT_EQ(end.status, 2);
-  EXPECT_NE(end.err.find("demo: controllers: expected at least one, found none"), std::string::npos)
+  EXPECT_NE(end.err.find("demo.yaml: controllers: expected at least one, found none"),
+            std::string::npos)
       << end.err;
 }
 
