@@ -8,7 +8,7 @@ namespace whirl_twin {
 
 LoggedMessages readLoggedMessages(const std::string& path, const std::string&, const Kinds&,
                                   const TakeLogged&, const LogProgress&, LogOrder) {
-  throw InputError(fmt::format(
+  throw RunFailure(fmt::format(
       "{}: cannot be read: built without LCM: run scripts/setup, then build again", path));
 }
 
