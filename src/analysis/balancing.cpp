@@ -211,7 +211,7 @@ std::optional<CorrectionSpread> correctionSpread(const Influence& of,
 
 std::vector<PartOfMass> partsAtPlaces(const std::complex<double>& mass_radius,
                                       std::vector<double> places) {
-  constexpr double kAtPlace = 1.0e-9;  // rad
+  constexpr double kAtPlace = 1.0e-4;  // rad: no place is known better
   for (double& place : places) {
     place = std::remainder(place, kTwoPi);
     place += place < 0.0 ? kTwoPi : 0.0;

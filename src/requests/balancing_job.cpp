@@ -329,10 +329,13 @@ class JobReader {
 
 }  // namespace
 
+BalancingJob readBalancingJob(const YAML::Node& tree, const std::string& source) {
+  return JobReader(source).read(tree);
+}
+
 BalancingJob readBalancingJob(const std::string& path) {
-  const YAML::Node tree =
-      readYamlFile(path, "a balancing job", "probes, planes, initial and trials");
-  return JobReader(path).read(tree);
+  return readBalancingJob(
+      readYamlFile(path, "a balancing job", "probes, planes, initial and trials"), path);
 }
 
 }  // namespace whirl_twin

@@ -2,6 +2,8 @@
 // masses can be set, and the tolerance.
 #pragma once
 
+#include <yaml-cpp/yaml.h>
+
 #include <Eigen/Core>
 #include <optional>
 #include <string>
@@ -49,5 +51,7 @@ struct BalancingJob {
 /// Reads a job from a YAML file. Throws InputError with all its errors. The limits on the values
 /// exclude overflow in the computations that follow.
 BalancingJob readBalancingJob(const std::string& path);
+/// Likewise from a tree; errors begin with `source`.
+BalancingJob readBalancingJob(const YAML::Node& tree, const std::string& source);
 
 }  // namespace whirl_twin

@@ -263,6 +263,22 @@ class Reports(unittest.TestCase):
         with self.assertRaisesRegex(wt.InputError, "--from must be < --to"):
             wt.balance("balancing", measured=log, from_=50, to=40)
 
+    def test_balancing_job_of_a_mapping_and_of_a_file(self):
+        # v = 2 u: an unbalance of 3 at 0 deg, and 1 more at 90 deg.
+        job = {"probes": ["left"], "planes": ["disc"], "initial": [[6, 0]],
+               "trials": [{"plane": "disc", "mass_radius": 1, "angle": 90,
+                           "readings": [[math.hypot(6, 2), -math.degrees(math.atan2(2, 6))]]}]}
+        result = wt.balance_job(job)
+        self.assertAlmostEqual(result.correction["disc"]["mass_radius"], 3.0, places=9)
+        self.assertAlmostEqual(abs(result.correction["disc"]["angle"]), 180.0, places=7)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "job.yaml")
+            path.write_text(json.dumps(job))
+            self.assertEqual(wt.balance_job(path).to_dict(), result.to_dict())
+            self.assertEqual(printed("balance", str(path)), result.to_dict())
+        with self.assertRaisesRegex(wt.InputError, "job: planes: must be"):
+            wt.balance_job({**job, "planes": []})
+
 
 class Package(unittest.TestCase):
     def test_nothing_is_loaded_before_it_is_used(self):
