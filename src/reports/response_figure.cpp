@@ -56,7 +56,7 @@ std::vector<SynchronousResponse> smoothSweep(const ResponseReport& r, std::size_
     }
     const double between = 0.5 * (sweep[k].speed + sweep[k + 1].speed);
     sweep.insert(sweep.begin() + static_cast<std::ptrdiff_t>(k) + 1,
-                 synchronousResponse(r.system->rotor, r.system->stations, between));
+                 synchronousResponse(r.system->rotor, r.system->places, between));
   }
   return sweep;
 }
@@ -191,7 +191,7 @@ Figure figure(const ResponseReport& r) {
   const std::vector<std::size_t> shown = shownStations(r);
   for (const std::size_t i : shown) {
     Series major;
-    major.name = r.system->stations[i].name;
+    major.name = r.system->places[i].name;
     for (const SynchronousResponse& response : r.sweep) {
       major.x.push_back(response.speed);
       major.y.push_back(response.orbits[i].major());
@@ -225,7 +225,7 @@ Figure figure(const ResponseReport& r) {
 
 Figure figure(const OrbitReport& r) {
   const OrbitChart orbits =
-      orbitChart(r.response.orbits, r.system->stations, "m", DrawnInstant::kPhaseMark);
+      orbitChart(r.response.orbits, r.system->places, "m", DrawnInstant::kPhaseMark);
   Figure figure;
   figure.title = fmt::format("{}: orbits at {}{}", r.system->title(), speedName(r.response.speed),
                              beyondMark(r.system->tables(), r.response.speed));
