@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+from . import request
 from .request import MissingLibrary, RequestError
 
 __all__ = ["MissingLibrary", "RequestError", "draw", "page_html", "save"]
@@ -29,9 +30,7 @@ def draw(figure: Mapping[str, Any], ax: Optional["Axes"] = None) -> "Figure":
 
     Raises RequestError if a field is missing or wrong, MissingLibrary without matplotlib.
     """
-    from .request import checked_figure
-
-    return _drawn(checked_figure(figure, "figure"), ax)
+    return _drawn(request.figure(figure, "figure"), ax)
 
 
 def _drawn(checked: Mapping[str, Any], ax: Optional["Axes"] = None) -> "Figure":
@@ -60,9 +59,7 @@ def save(figure: Mapping[str, Any], path: str, format: str) -> None:
     """
     if format not in FORMATS:
         raise RequestError(f"format: one of {', '.join(FORMATS)} is required, found {format!r}")
-    from .request import checked_figure
-
-    checked = checked_figure(figure, "figure")
+    checked = request.figure(figure, "figure")
     try:
         from . import output, style
     except ImportError as error:
@@ -78,9 +75,7 @@ def page_html(page: Mapping[str, Any]) -> str:
 
     Raises RequestError, MissingLibrary without Jinja2 or (with figures) without matplotlib.
     """
-    from .request import checked_page
-
-    checked = checked_page(page, "page")
+    checked = request.checked(request.PAGE, page, "page")
     try:
         from .pages import html
     except ImportError as error:

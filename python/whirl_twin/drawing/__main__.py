@@ -19,9 +19,9 @@ from typing import Any
 def run(request: Any) -> None:
     """Write all files of a request."""
     from . import page_html, save
-    from .request import RequestError, checked_drawing, list_of, record
+    from .request import RequestError, checked, drawing as one_drawing
 
-    drawings = record({"drawings": list_of(checked_drawing)})(request, "request")["drawings"]
+    drawings = checked({"drawings": [one_drawing]}, request, "request")["drawings"]
     for i, drawing in enumerate(drawings):
         try:
             if drawing["format"] == "html":
