@@ -266,6 +266,33 @@ class Charts(unittest.TestCase):
             svg_of(figure(*charts, columns=4, width=1600, chart_height=200))
 
 
+class Overlays(unittest.TestCase):
+    def test_curves_of_all_figures_are_in_one_with_their_names(self):
+        other = figure(chart([series([0, 5], [2, 3], name="ramp")], title="its own"), title="another")
+        drawn = drawing.draw(drawing.overlaid({"model": figure(chart([RAMP])), "measured": other}))
+        (ax,) = drawn.axes
+        self.assertEqual([line.get_label() for line in ax.lines], ["model", "measured"])
+        np.testing.assert_array_equal(ax.lines[1].get_xydata(), [[0, 2], [5, 3]])
+        self.assertNotEqual(ax.lines[0].get_color(), ax.lines[1].get_color())
+        self.assertNotEqual(ax.lines[0].get_linestyle(), ax.lines[1].get_linestyle())
+        self.assertEqual(drawn._suptitle.get_text(), "a figure and another")
+
+    def test_several_curves_keep_their_colours_and_get_the_dashes_of_their_figure(self):
+        pair = [{**RAMP, "name": "x"}, {**RAMP, "name": "y"}]
+        (ax,) = drawing.draw(drawing.overlaid({"a": figure(chart(pair)), "b": figure(chart(pair))})).axes
+        self.assertEqual([line.get_label() for line in ax.lines], ["a, x", "a, y", "b, x", "b, y"])
+        colors = [line.get_color() for line in ax.lines]
+        self.assertEqual(colors[:2], colors[2:])
+        self.assertEqual([line.is_dashed() for line in ax.lines], [False, False, True, True])
+
+    def test_other_axes_are_an_error(self):
+        for other, wrong in ((figure(chart([RAMP], y={"label": "y (m)"})), "b: axes as in a are required"),
+                             (figure(chart([RAMP]), chart([RAMP])), "b: charts as in a are required"),
+                             (bars_figure(), "b: charts are required, found a figure of kind bars")):
+            with self.assertRaisesRegex(drawing.RequestError, wrong):
+                drawing.overlaid({"a": figure(chart([RAMP])), "b": other})
+
+
 class Bars(unittest.TestCase):
     def test_bars_run_from_the_base_to_their_values_in_order(self):
         (ax,) = drawing.draw(bars_figure()).axes

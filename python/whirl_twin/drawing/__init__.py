@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 from . import request
 from .request import MissingLibrary, RequestError
 
-__all__ = ["MissingLibrary", "RequestError", "draw", "page_html", "save"]
+__all__ = ["MissingLibrary", "RequestError", "draw", "overlaid", "page_html", "save"]
 
 FORMATS = ("svg", "png", "pdf")
 
@@ -25,8 +25,8 @@ def draw(figure: Mapping[str, Any], ax: Optional["Axes"] = None) -> "Figure":
     """Draw a figure.
 
     With ``ax``, axes of the caller, the first chart is drawn on them and their figure is returned;
-    titles, sizes and columns of the figure do not apply. Without, a figure of its own, 100 px per
-    inch, not registered with pyplot.
+    titles, sizes and columns of the figure do not apply. Without, a new figure, 100 px per inch,
+    not registered with pyplot.
 
     Raises RequestError if a field is missing or wrong, MissingLibrary without matplotlib.
     """
@@ -49,6 +49,17 @@ def _drawn(checked: Mapping[str, Any], ax: Optional["Axes"] = None) -> "Figure":
         else:
             from .sketches import draw_sketch as drawn
         return drawn(checked, ax)
+
+
+def overlaid(figures: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Any]:
+    """One figure with the curves of several, by name, over each other: all are of kind ``charts``.
+
+    Curves of the first are drawn as they are, those of the others in dashes. Reference lines, bands
+    and notes are those of the first. Raises RequestError unless all have the same axes.
+    """
+    from .overlay import overlaid as made
+
+    return made(figures)
 
 
 def save(figure: Mapping[str, Any], path: str, format: str) -> None:

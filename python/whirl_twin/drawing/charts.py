@@ -234,7 +234,7 @@ def _add_series(
     marked = series["marks"] != "none"
     (line,) = ax.plot(
         x, y, zorder=(3.0 if marked else 2.0) + 1.0e-4 * index, label=series["name"] or "_",
-        clip_on=clip or not marked, **_look(series, pen),
+        clip_on=clip or not (marked or _fits(ax, x, y)), **_look(series, pen),
     )
     ink = 0.0 if marked else _ink(ax, x, y, pen["width"])
     if ink > _DENSE:  # a band: of a finer line the inside, and what is behind it, are seen
@@ -248,6 +248,12 @@ def _add_series(
             line.set_markeredgewidth(0.0)
             line.set_markevery(np.flatnonzero(alone).tolist())
             line.set_clip_on(clip)
+
+
+def _fits(ax, x: np.ndarray, y: np.ndarray) -> bool:
+    """Is a line inside its frame? Then it is not clipped: at the frame it would be half as wide."""
+    return all(np.nanmin(row, initial=ends[0]) >= min(ends) and np.nanmax(row, initial=ends[0]) <= max(ends)
+               for row, ends in ((x, ax.get_xlim()), (y, ax.get_ylim())))
 
 
 def _ink(ax, x: np.ndarray, y: np.ndarray, width: float) -> float:

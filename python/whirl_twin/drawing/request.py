@@ -244,11 +244,11 @@ PAGE = {"title": text, "summary": ([text], []), "facts": ([_fact], []), "parts":
 
 
 def drawing(value: Any, where: str) -> Dict[str, Any]:
-    """One entry of a request: where its file goes, its format, and its figure or page.
+    """One entry of a request: where its file goes, its format, and its figure, figures or page.
 
-    The figure or page is unchecked: draw() and page_html() check it.
+    What it holds is unchecked: draw(), overlaid() and page_html() check it.
     """
     kind = value.get("format") if isinstance(value, Mapping) else None
     one_of("svg", "png", "pdf", "html")(kind, f"{where}.format")
-    content = "page" if kind == "html" else "figure"
+    content = "page" if kind == "html" else "figures" if "figures" in value else "figure"
     return checked({"path": text, "format": text, content: lambda held, _: held}, value, where)
