@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/sketch_json.h"
-
 namespace whirl_twin {
 
 namespace {

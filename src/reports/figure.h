@@ -172,4 +172,8 @@ Json figureJson(const BarChart& chart);
 Json figureJson(const ResponseMap& map);
 Json figureJson(const SketchPicture& picture);
 
+/// The members of the sketch under their names, points as [x, y, z], roles by their names; what is
+/// not finite is null.
+Json sketchJson(const Sketch& sketch);
+
 }  // namespace whirl_twin

@@ -195,7 +195,7 @@ std::vector<Chart> rotorCharts(const PlotHistory& history) {
   std::vector<Chart> charts{historyChart(history, "whirl radius", "m", whirl.about.whirl_radius)};
   if (!whirl.aside.empty()) {
     charts.front().y.label = "whirl radius about its mean (m)";
-    // In a chart of its own: a sag is often a thousand times the whirl.
+    // In a separate chart: a sag is often a thousand times the whirl.
     charts.push_back(historyChart(history, "orbit's mean from the axis", "m", whirl.aside));
   }
   const std::vector<double> lag = phaseLagHistory(whirl.about);

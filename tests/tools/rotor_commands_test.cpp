@@ -1,4 +1,4 @@
-// `twin campbell`, `twin response`, `twin orbit` and `twin balance`: their output, drawings and
+// `twin campbell`, `twin response` and `twin orbit`: their output, drawings and
 // errors.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -239,108 +239,6 @@ TEST(RotorCommands, DrawPictures) {
     EXPECT_EQ(end.status, 0) << end.err;
     EXPECT_EQ(nlohmann::json::parse(contentsOf(picture))["kind"], "charts");
   }
-}
-
-// One probe, one plane, v = 2 u: an unbalance of 3 at 0 degrees shows 6, and 1 more at 90 degrees
-// makes 6 + 2i, read as a lag of -18.43 degrees. Three have to be set opposite.
-TEST(Balance, SetsTheMassOpposite) {
-  const TemporaryDirectory folder;
-  const std::string runs =
-      folder.write("runs.yaml",
-                   "probes: [left]\n"
-                   "planes: [disc]\n"
-                   "initial: [[6, 0]]\n"
-                   "trials:\n"
-                   "  - {plane: disc, mass_radius: 1, angle: 90,\n"
-                   "     readings: [[6.324555320336759, -18.43494882292201]]}\n");
-  const Ending end = twin({"balance", runs, "--json"});
-  ASSERT_EQ(end.status, 0) << end.err;
-  const auto disc = end.json()["correction"]["disc"];
-  EXPECT_NEAR(disc["mass_radius"].get<double>(), 3.0, 1e-12);
-  EXPECT_NEAR(std::fabs(disc["angle"].get<double>()), 180.0, 1e-10);
-  EXPECT_NEAR(end.json()["residual_rms"].get<double>(), 0.0, 1e-12);
-}
-
-/// Amplitudes and lags [deg] that the probes of the scene `balancing` read at 70 rad/s, with trial
-/// masses in its two planes.
-std::string readings(double left, double right, double angle) {
-  std::string scene = contentsOf(WHIRL_TWIN_SOURCE "/config/scenes/balancing.yaml");
-  int node = 2;
-  for (const double mass : {left, right}) {
-    const std::string empty = fmt::format("{{node: {}, magnitude: 0.0, angle: 0.0}}", node);
-    const std::size_t at = scene.find(empty);
-    EXPECT_NE(at, std::string::npos) << empty;
-    scene.replace(at, empty.size(),
-                  fmt::format("{{node: {}, magnitude: {}, angle: {}}}", node, mass, angle));
-    node += 2;
-  }
-  const TemporaryDirectory folder;
-  const Ending end = twin({"orbit", folder.write("trial.yaml", scene), "--speed", "70", "--json"});
-  EXPECT_EQ(end.status, 0) << end.err;
-  const auto stations = end.json()["systems"]["rotor"]["stations"];
-  std::vector<std::string> all;
-  for (const char* probe : {"node_1", "node_5"}) {
-    all.push_back(fmt::format("[{}, {}]", stations[probe]["major"].get<double>(),
-                              stations[probe]["phase_lag"].get<double>() * 180.0 / M_PI));
-  }
-  return fmt::format("[{}]", fmt::join(all, ", "));
-}
-
-// docs/rotors.md, with the trial masses where there is a hole: 6.0e-4 kg m at 0.9 rad and 9.0e-4 at
-// 3.6 rad are hidden in the scene, and are to be set opposite.
-TEST(Balance, FindsWhatTheShippedSceneHidesWithTrialMassesAtAnyAngle) {
-  const TemporaryDirectory folder;
-  const std::string runs = folder.write(
-      "runs.yaml",
-      fmt::format("probes: [node_1, node_5]\nplanes: [left, right]\ninitial: {}\ntrials:\n"
-                  "  - {{plane: left, mass_radius: 5.0e-4, angle: 60, readings: {}}}\n"
-                  "  - {{plane: right, mass_radius: 5.0e-4, angle: 60, readings: {}}}\n",
-                  readings(0.0, 0.0, 0.0), readings(5.0e-4, 0.0, M_PI / 3.0),
-                  readings(0.0, 5.0e-4, M_PI / 3.0)));
-  const Ending end = twin({"balance", runs, "--json"});
-  ASSERT_EQ(end.status, 0) << end.err;
-  const auto correction = end.json()["correction"];
-  EXPECT_NEAR(correction["left"]["mass_radius"].get<double>(), 6.0e-4, 1e-12);
-  EXPECT_NEAR(correction["left"]["angle"].get<double>(), 0.9 * 180.0 / M_PI - 180.0, 1e-6);
-  EXPECT_NEAR(correction["right"]["mass_radius"].get<double>(), 9.0e-4, 1e-12);
-  EXPECT_NEAR(correction["right"]["angle"].get<double>(), 3.6 * 180.0 / M_PI - 180.0, 1e-6);
-}
-
-TEST(Balance, SaysWhereTheFileIsWrong) {
-  const TemporaryDirectory folder;
-  const std::string runs = folder.write("runs.yaml",
-                                        "probes: [left]\nplanes: [disc]\ninitial: [[6, 0]]\n"
-                                        "trials: [{plane: disk, mass_radius: 1, angle: north,\n"
-                                        "          readings: [[1]], mas: 1}]\n"
-                                        "weights: [-1]\n");
-  const Ending end = twin({"balance", runs});
-  EXPECT_EQ(end.status, 2);
-  EXPECT_EQ(end.out, "");
-  Lines expected;
-  for (const char* error :
-       {"weights[0]: must be a weight from 0 to 1e+12, found -1",
-        "trials[0].mas: unknown key of a trial run",
-        "trials[0].plane: must be the name of a plane, found 'disk'; did you mean 'disc'?",
-        "trials[0].angle: must be an angle in deg from -360000 to 360000, found 'north'",
-        "trials[0].readings[0]: must be [amplitude, phase lag in deg], found a list"}) {
-    expected.push_back("twin: " + runs + ": " + error);
-  }
-  EXPECT_EQ(linesOf(end.err), expected);
-}
-
-TEST(Balance, NeedsARunForEveryPlane) {
-  const TemporaryDirectory folder;
-  const std::string runs =
-      folder.write("runs.yaml",
-                   "probes: [left]\nplanes: [disc, fan]\ninitial: [[6, 0]]\nweights: [0]\n"
-                   "trials: [{plane: disc, mass_radius: 1, angle: 0, readings: [[1, 0]]}]\n");
-  const Ending end = twin({"balance", runs});
-  EXPECT_EQ(end.status, 2);
-  EXPECT_EQ(linesOf(end.err),
-            (Lines{"twin: " + runs + ": weights: must have one > 0",
-                   "twin: " + runs +
-                       ": trials: must have a run with a mass in every plane, found none in "
-                       "'fan'"}));
 }
 
 struct RefusedCommand {
