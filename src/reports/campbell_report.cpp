@@ -205,6 +205,9 @@ Chart frequencyChart(const CampbellReport& r, const ShownUnits& u) {
   // Where a branch leaves the chart it goes to its edge.
   chart.y = tightAxis("damped whirl frequency", u.frequency);
   const double most = highestFrequency(r);
+  Series range{"", {r.range.from, r.range.from}, {0.0, most}};  // branches at the top are seen
+  range.line = false;
+  chart.series.push_back(range);
   addBands(r, true, chart);
   addBranches(r, {&CampbellPoint::frequency, most}, true, chart);
   numberBranches(r, {&CampbellPoint::frequency, most}, chart);
@@ -235,8 +238,7 @@ Chart frequencyChart(const CampbellReport& r, const ShownUnits& u) {
     name_it = false;
     chart.series.push_back(mark);
     if (c.harmonic == 1.0 && c.mode.whirl != Whirl::kBackward) {
-      chart.vertical.push_back(
-          {c.speed, u.speedText(c.speed)});
+      chart.vertical.push_back({c.speed, u.speedText(c.speed)});
     }
   }
   return chart;

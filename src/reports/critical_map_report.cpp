@@ -270,8 +270,7 @@ Figure figure(const CriticalMapReport& r, const ShownUnits& u) {
   }
   if (r.system->highest_speed > 0.0) {
     chart.horizontal.push_back(
-        {r.system->highest_speed,
-         "highest speed " + u.speedText(r.system->highest_speed)});
+        {r.system->highest_speed, "highest speed " + u.speedText(r.system->highest_speed)});
   }
   Figure figure;
   figure.title = r.system->title() + ": undamped critical speed map";

@@ -60,29 +60,27 @@ Json linesJson(const std::vector<ReferenceLine>& lines, double unit = 1.0) {
 
 Json chartJson(const Chart& chart) {
   const double x_unit = chart.x.unit, y_unit = chart.y.unit;
-  return {
-      {"title", chart.title},
-      {"x", axisJson(chart.x)},
-      {"y", axisJson(chart.y)},
-      {"series", listJson(chart.series,
-                          [&](const Series& one) { return seriesJson(one, x_unit, y_unit); })},
-      {"vertical", linesJson(chart.vertical, x_unit)},
-      {"horizontal", linesJson(chart.horizontal, y_unit)},
-      {"bands", listJson(chart.bands,
-                         [&](const Band& band) -> Json {
-                           return {{"name", band.name},
-                                   {"low", numberOf(band.low / x_unit)},
-                                   {"high", numberOf(band.high / x_unit)},
-                                   {"color", colorOf(band.ink)}};
-                         })},
-      {"notes",
-       listJson(chart.notes,
-                [&](const Note& note) -> Json {
-                  return {{"x", numberOf(note.x / x_unit)},
-                          {"y", numberOf(note.y / y_unit)},
-                          {"text", note.text}};
-                })},
-      {"equal_aspect", chart.equal_aspect}};
+  return {{"title", chart.title},
+          {"x", axisJson(chart.x)},
+          {"y", axisJson(chart.y)},
+          {"series", listJson(chart.series,
+                              [&](const Series& one) { return seriesJson(one, x_unit, y_unit); })},
+          {"vertical", linesJson(chart.vertical, x_unit)},
+          {"horizontal", linesJson(chart.horizontal, y_unit)},
+          {"bands", listJson(chart.bands,
+                             [&](const Band& band) -> Json {
+                               return {{"name", band.name},
+                                       {"low", numberOf(band.low / x_unit)},
+                                       {"high", numberOf(band.high / x_unit)},
+                                       {"color", colorOf(band.ink)}};
+                             })},
+          {"notes", listJson(chart.notes,
+                             [&](const Note& note) -> Json {
+                               return {{"x", numberOf(note.x / x_unit)},
+                                       {"y", numberOf(note.y / y_unit)},
+                                       {"text", note.text}};
+                             })},
+          {"equal_aspect", chart.equal_aspect}};
 }
 
 std::string axisLabels(const ChartAxis& axis) {
@@ -244,7 +242,7 @@ Json figureJson(const ResponseMap& map) {
           {"label", map.label},
           {"x_levels", numbersOf(map.x_levels)},
           {"y_levels", numbersOf(map.y_levels)},
-          {"values", listJson(map.values, numbersOf)},
+          {"values", listJson(map.values, [](const auto& row) { return numbersOf(row); })},
           {"contours", linesJson(map.contours)}};
 }
 

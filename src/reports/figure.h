@@ -165,8 +165,8 @@ struct SketchPicture {
 bool fitsASheet(const SketchPicture& picture);
 
 /// The figure for Python: the members above under their names, colours as "#rrggbb", points as
-/// [x, y, z], numbers in the units of the axes, what is not finite as null; `kind`: charts, bars, map or sketch; and `description`, a
-/// text for those who cannot see it.
+/// [x, y, z], numbers in the units of the axes, what is not finite as null; `kind`: charts, bars,
+/// map or sketch; and `description`, a text for those who cannot see it.
 Json figureJson(const Figure& figure);
 Json figureJson(const BarChart& chart);
 Json figureJson(const ResponseMap& map);

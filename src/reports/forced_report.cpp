@@ -199,8 +199,8 @@ Figure figure(const ForcedReport& r, const ShownUnits& u) {
     receptance.vertical.push_back({r.speed, "speed of the shaft"});
   }
   Figure figure;
-  figure.title = fmt::format("{}: force along {} at {}, shaft at {}", r.system->title(), r.request.along,
-                             r.request.force, u.speedText(r.speed));
+  figure.title = fmt::format("{}: force along {} at {}, shaft at {}", r.system->title(),
+                             r.request.along, r.request.force, u.speedText(r.speed));
   if (shown < r.stations.size()) {
     figure.title += fmt::format(", {} of {} stations", shown, r.stations.size());
   }

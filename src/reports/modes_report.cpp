@@ -138,10 +138,17 @@ Chart shapeChart(const ModesReport& r, std::size_t place, const ShownUnits& u) {
       series.name.clear();  // one legend, in words, for all
     }
   }
+  if (!drawn.along_shaft) {
+    chart.series.back().name = "at one instant";  // a mode has no phase
+    if (chart.series.size() == 2) {
+      chart.series.front().pen =
+          Pen{mode.whirl == Whirl::kBackward ? ink::kVermilion : ink::kBlue, 2.2};
+    }
+  }
   const double frequency = mode.dampedFrequency();
   chart.title = fmt::format("{}: {}, {} ({}), log. decrement {:.3g}", place + 1, name(mode.whirl),
-                            u.frequency.shortText(frequency), u.frequency.beside().shortText(frequency),
-                            mode.logDecrement());
+                            u.frequency.shortText(frequency),
+                            u.frequency.beside().shortText(frequency), mode.logDecrement());
   return chart;
 }
 
@@ -241,9 +248,9 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
 
 Figure figure(const ModesReport& r, std::size_t count, const ShownUnits& u) {
   Figure figure;
-  figure.title = fmt::format("{}: whirl modes at {} (blue forward, orange backward){}",
-                             r.system->title(), u.speedText(r.speed),
-                             beyondMark(r.system->tables(), r.speed));
+  figure.title =
+      fmt::format("{}: whirl modes at {} (blue forward, orange backward){}", r.system->title(),
+                  u.speedText(r.speed), beyondMark(r.system->tables(), r.speed));
   for (std::size_t k = 0; k < std::min(count, r.model.size()); ++k) {
     figure.charts.push_back(shapeChart(r, k, u));
   }

@@ -202,6 +202,7 @@ std::vector<Chart> rotorCharts(const PlotHistory& history) {
   if (anyFinite(lag)) {
     charts.push_back(historyChart(history, "whirl phase lag", "deg", lag));
     charts.back().y.degrees = true;
+    charts.back().y.inverted = true;  // as machinists draw it
     charts.back().horizontal = {{90.0, ""}, {180.0, ""}};
   }
   charts.push_back(speedChart(history, "shaft speed", history.speed));

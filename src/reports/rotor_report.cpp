@@ -115,9 +115,8 @@ class RotorReport {
 
   void start() {
     const double low = system_.lowest_speed, high = system_.highest_speed;
-    const std::string runs = low == high
-                                 ? "running at " + at(high)
-                                 : fmt::format("running from {} to {}", at(low), at(high));
+    const std::string runs = low == high ? "running at " + at(high)
+                                         : fmt::format("running from {} to {}", at(low), at(high));
     page_.text(fmt::format(
         "{}, {}. Modes and stability at {}. Units are SI (m, kg, s, N, rad) where none is given.",
         system_.model, runs, at(speed_)));
@@ -290,7 +289,8 @@ class RotorReport {
     } else {
       page_.table({"peak, " + u_.speed.name, u_.besideSpeed().name, "whirl",
                    (u_.vibration.name == u_.length.name ? "semi-major axis, " : "major axis, ") +
-                       u_.vibration.name, "AF", "margin, %", "required, %", ""},
+                       u_.vibration.name,
+                   "AF", "margin, %", "required, %", ""},
                   rows);
     }
     page_.list(separationConditions());
@@ -310,8 +310,8 @@ class RotorReport {
     rows.push_back({"Q_0, where it ceases to decay, " + stiffness.name,
                     report.margin ? numberOrDash(stiffness.in(*report.margin)) : "none found"});
     if (report.applied) {
-      rows.push_back({"Q_A, of all stages, " + stiffness.name,
-                      numberOrDash(stiffness.in(*report.applied))});
+      rows.push_back(
+          {"Q_A, of all stages, " + stiffness.name, numberOrDash(stiffness.in(*report.applied))});
       rows.push_back(
           {"log. decrement at Q_A",
            report.at_applied ? numberOrDash(report.at_applied->mode.logDecrement()) : "–"});

@@ -53,7 +53,8 @@ Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const Shown
 template <class Make>
 Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const ShownUnits& units,
                        const Make& make) {
-  return rotorDocument(of, units, make, [units](const auto& report) { return figure(report, units); });
+  return rotorDocument(of, units, make,
+                       [units](const auto& report) { return figure(report, units); });
 }
 
 void requireNumbers(const CampbellReportRequest& request) {

@@ -26,7 +26,8 @@ namespace {
 
 constexpr const char* kPlotDescription =
     "Runs a scene from its start and draws the result: for each system a picture, its "
-    "time\nhistory, its phase portrait and its energies. Or draws the results of a study, or figures "
+    "time\nhistory, its phase portrait and its energies. Or draws the results of a study, or "
+    "figures "
     "that\nwere written as JSON over each other.";
 
 constexpr const char* kPlotFooter =
@@ -149,9 +150,10 @@ Json readFigure(const std::string& path) {
   std::ifstream file(path);
   const Json figure = Json::parse(file, nullptr, false);
   if (!figure.is_object() || !figure.contains("kind")) {
-    throw InputError(fmt::format("{}: must be the data of a figure, as --plot FILE.json and --format "
-                                 "json write it",
-                                 path));
+    throw InputError(
+        fmt::format("{}: must be the data of a figure, as --plot FILE.json and --format "
+                    "json write it",
+                    path));
   }
   return figure;
 }
@@ -200,8 +202,9 @@ int plot(const PlotRequest& request) {
     return plotFigures(request);
   }
   if (!request.over.empty()) {
-    throw InputError(fmt::format("--over: needs a figure, FILE.json, in place of the scene, found {}",
-                                 request.run.scene.name));
+    throw InputError(
+        fmt::format("--over: needs a figure, FILE.json, in place of the scene, found {}",
+                    request.run.scene.name));
   }
   if (request.results) {
     return plotStudy(request);

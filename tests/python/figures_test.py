@@ -40,7 +40,7 @@ def figures_of(*arguments):
 
 def texts_of(figure):
     """The texts of a drawn figure: text, and place [px]."""
-    found = [*figure.texts, *([figure._suptitle] if figure._suptitle else [])]
+    found = [*figure.texts]
     for ax in [child for ax in figure.axes for child in (ax, *ax.child_axes)]:
         found += [*ax.texts, ax.title]
         if not ax.axison:
@@ -56,7 +56,7 @@ def texts_of(figure):
 def text_faults(content):
     """Of a figure's data: texts beyond its edges, and pairs of texts that cover each other."""
     figure = drawing.draw(content)
-    figure.canvas.draw()
+    figure.savefig(os.devnull, format="png", dpi=figure.dpi)
     texts = texts_of(figure)
     for i, (text, box) in enumerate(texts):
         if min(box.x0, box.y0) < -1.0 or box.x1 > figure.bbox.x1 + 1.0 or box.y1 > figure.bbox.y1 + 1.0:
@@ -113,6 +113,35 @@ class Units(unittest.TestCase):
         si, shown = self.chart("orbit", 1), self.chart("orbit", 1, "--units", "um")
         np.testing.assert_allclose(np.array(si["series"][0]["x"]), np.array(shown["series"][0]["x"]) * 1e-6)
         self.assertEqual(shown["x"]["label"], "x (um)")
+
+
+class Overlays(unittest.TestCase):
+    def plot(self, folder, *arguments):
+        done = subprocess.run([PROGRAM, "plot", *arguments, "--output", folder], capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+    def test_two_systems_are_drawn_over_each_other(self):
+        with tempfile.TemporaryDirectory() as folder:
+            names = [os.path.join(folder, f"{system}_time.json") for system in ("soft", "stiff")]
+            status, text = self.plot(folder, "sprung_inverted_pendulum", "--duration", "1", "--format", "json")
+            self.assertEqual(status, 0, text)
+            status, text = self.plot(folder, names[0], "--over", names[1])
+            self.assertEqual((status, text), (0, os.path.join(folder, "soft_time_stiff_time.svg") + "\n"))
+            drawn = pathlib.Path(text.strip()).read_text(encoding="utf-8")
+            self.assertIn(">soft_time<", drawn)
+            self.assertIn(">stiff_time<", drawn)
+
+    def test_what_is_no_figure_is_an_error(self):
+        with tempfile.TemporaryDirectory() as folder:
+            wrong = pathlib.Path(folder, "wrong.json")
+            wrong.write_text("{}", encoding="utf-8")
+            for arguments, expected in (((str(wrong),), "must be the data of a figure"),
+                                        (("demo", "--over", str(wrong)), "--over: needs a figure"),
+                                        ((str(wrong), "--format", "json"), "--format: must be svg, png or pdf")):
+                status, text = self.plot(folder, *arguments)
+                self.assertEqual(status, 2, text)
+                self.assertIn(expected, text)
+            self.assertEqual([path.name for path in pathlib.Path(folder).iterdir()], ["wrong.json"])
 
 
 if __name__ == "__main__":

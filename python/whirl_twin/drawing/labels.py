@@ -143,9 +143,10 @@ def label_chart(ax, chart: dict, curves: List[Tuple[np.ndarray, float, bool, boo
             _note(ax, places, x, y, note)
 
 
-def _annotate(ax, text: str, place: Rectangle, origin, at, coordinates="data", **more) -> None:
+def _annotate(
+    ax, text: str, place: Rectangle, origin, at, coordinates="data", rotated=False, **more
+) -> None:
     """A text in a place; it stays as far from `at`, which is at `origin` [px]."""
-    rotated = place[3] > place[2] and "\n" not in text
     shift = (place[0] + 0.5 * place[2] - origin[0], origin[1] - place[1] - 0.5 * place[3])
     ax.annotate(
         text, xy=at, xycoords=coordinates, xytext=(shift[0] * style.PX, shift[1] * style.PX),
@@ -177,7 +178,7 @@ def _name_line(ax, places: LabelPlaces, line: dict, origin, upright: bool) -> No
     white = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.5}
     at, coordinates = (((line["at"], 1.0), ("data", "axes fraction")) if upright
                        else ((1.0, line["at"]), ("axes fraction", "data")))
-    _annotate(ax, line["label"], place, origin, at, coordinates,
+    _annotate(ax, line["label"], place, origin, at, coordinates, upright and place[2] == HEIGHT,
               color=style.darker(style.GREY, 0.25), bbox=white if covers else None)
 
 
