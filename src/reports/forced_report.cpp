@@ -161,15 +161,14 @@ std::string text(const ForcedReport& r, const ShownUnits& u) {
                            u.frequency.name);
 }
 
-Figure figure(const ForcedReport& r) {
+Figure figure(const ForcedReport& r, const ShownUnits& u) {
   Chart receptance, mobility, phase;
-  receptance.x = mobility.x = phase.x = {"frequency of the force (rad/s)", false, true};
-  receptance.x.second = SecondScale{"Hz", 0.5 / kPi};
+  receptance.x = tightAxis("frequency of the force", u.frequency, u.besideFrequency());
+  mobility.x = phase.x = tightAxis("frequency of the force", u.frequency);
   receptance.y.label = "receptance (m/N)";
   mobility.y.label = "mobility (m/(N s))";
-  phase.y.label = "lag of the displacement (deg)";
+  phase.y = lagAxis("lag of the displacement", u.angle);
   receptance.y.logarithmic = mobility.y.logarithmic = true;
-  phase.y.degrees = true;
   const std::size_t shown = std::min(r.stations.size(), kMaxStationsDrawn);
   for (std::size_t s = 0; s < shown; ++s) {
     const std::size_t i = r.stations[s];
@@ -200,8 +199,8 @@ Figure figure(const ForcedReport& r) {
     receptance.vertical.push_back({r.speed, "speed of the shaft"});
   }
   Figure figure;
-  figure.title = fmt::format("{}: force along {} at {}, shaft at {:.4g} rad/s", r.system->title(),
-                             r.request.along, r.request.force, r.speed);
+  figure.title = fmt::format("{}: force along {} at {}, shaft at {}", r.system->title(),
+                             r.request.along, r.request.force, u.speedText(r.speed));
   if (shown < r.stations.size()) {
     figure.title += fmt::format(", {} of {} stations", shown, r.stations.size());
   }

@@ -81,14 +81,14 @@ class Scenes(unittest.TestCase):
 
     def test_with_names_what_is_not_there(self):
         scene = wt.Scene.load(JEFFCOTT)
-        with self.assertRaisesRegex(wt.InputError, "motor: must be the name of a system, drive"):
+        with self.assertRaisesRegex(wt.InputError, "motor.mass: there is no system, controller, drive or sensor 'motor'"):
             scene.with_(motor={"mass": 1.0})
         with self.assertRaisesRegex(wt.SceneError, "systems.rotor.parameters.mas: unknown.*did you mean 'mass'"):
             scene.with_(rotor={"mas": 1.0})
         for path in ("discs[9].mass", "mass[0]", "a..b", "", "mass.deep"):
             with self.assertRaises(wt.InputError):
                 scene.with_(rotor={path: 1.0})
-        with self.assertRaises(TypeError):
+        with self.assertRaisesRegex(wt.InputError, "rotor: must name a value of rotor"):
             scene.with_(rotor=5.0)
 
 
