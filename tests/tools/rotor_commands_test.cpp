@@ -283,7 +283,7 @@ TEST(Orbit, OfAPedestalIsThatOfTheCasing) {
   ASSERT_EQ(response.status, 0) << response.err;
   const auto sweep = response.json()["systems"]["rotor"]["stations"];
   EXPECT_EQ(sweep.size(), 1U);
-  EXPECT_NEAR(sweep["pedestal_0"]["major"].back().get<double>(),
+  EXPECT_NEAR(sweep["pedestal_0"].back()["major"].get<double>(),
               stations["pedestal_0"]["major"].get<double>(), 1e-12);
 }
 
