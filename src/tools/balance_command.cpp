@@ -42,7 +42,8 @@ constexpr const char* kBalanceFooter =
     "mark in the direction of rotation.\n"
     "The correction masses are to be added after the trial masses are removed.\n"
     "\n"
-    "With --measured, FILE is a scene, and LOG an LCM log or a rosbag with the measurements of "
+    "With --measured, FILE is a scene, and LOG an LCM log, a rosbag or a table with the "
+    "measurements of "
     "its\n"
     "`sensors`, as `twin simulate --measure` writes it: displacement probes and a keyphasor, over "
     "a\n"
@@ -205,6 +206,7 @@ void addBalanceCommand(const ProgramCommand& twin, int& status) {
                .option("--lcm-prefix", request->log.lcm_prefix,
                        "prefix of the log's channels; default: TWIN_")
                .type("PREFIX"));
+  with_log(addImportOption(command, request->log.import));
   addCsvOption(command, request->csv);
   addJsonOption(command, request->json);
   command.footer(kBalanceFooter);
