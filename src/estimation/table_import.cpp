@@ -245,7 +245,10 @@ class TableImport::Body {
       std::optional<std::size_t> column = table_->findColumn(source.name + "/keyphasor");
       const std::vector<TableColumn>& columns = table_->columns();
       for (std::size_t i = 0; i < columns.size() && !column; ++i) {
-        column = isKeyphasorName(columns[i].name, source.name) ? std::optional(i) : column;
+        column = isKeyphasorName(columns[i].name, source.name) ||
+                         isKeyphasorName(columns[i].heading, source.name)
+                     ? std::optional(i)
+                     : column;
       }
       if (const KeyphasorImport* given = settingsOf(source.name)) {
         column = given->column.empty() ? column : table_->column(given->column);

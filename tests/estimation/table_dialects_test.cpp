@@ -81,11 +81,11 @@ TableSettings timeOf(const std::string& column) {
 }
 
 TEST(TableDialects, SeparatorsAndDecimalMarks) {
-  for (const std::string& separator : {",", ";", "\t", "  ", " ", " , ", "|"}) {
+  for (const std::string separator : {",", ";", "\t", "  ", " ", " , ", "|"}) {
     SCOPED_TRACE(separator);
     expectSwing(read(table("time" + separator + "angle\n", kSeconds, kAngle, separator)));
   }
-  for (const std::string& separator : {";", "\t", "   "}) {
+  for (const std::string separator : {";", "\t", "   "}) {
     SCOPED_TRACE(separator);
     const MeasuredRun run = read(
         table("time" + separator + "angle\n", withComma(kSeconds), withComma(kAngle), separator));
@@ -153,7 +153,7 @@ TEST(TableDialects, Times) {
   expectSwing(read(table("sample,angle\n", number(200.0), kAngle, ","), settings));
   settings.time = "";
   expectSwing(read(table("angle,other\n", kAngle, kSeconds, ","), settings));
-  for (const std::string& zone : {"", "Z", "+00:00", "+0000"}) {
+  for (const char* zone : {"", "Z", "+00:00", "+0000"}) {
     const auto calendar = [&](int row) {
       return fmt::format("2026-02-28T23:59:{:06.3f}{}", 59.0 + 0.001 * std::floor(5.0 * row), zone);
     };
