@@ -356,16 +356,16 @@ def kapitza_pendulum(twin):
     barrier = max(e["state"]["theta"] for e in state["equilibria"] if e["verdict"] == "unstable")
     lost = {margin["parameter"]: margin["lost_at"] for margin in state["parameter_margins"]["parameters"]}
     sway = math.acos(shaken_upright(length, a, frequency, g)) * frequency / (2.0 * math.pi)
-    falls, stands = 130.0, 150.0
-    while stands - falls > 1e-9:
-        middle = 0.5 * (falls + stands)
+    falls, stays = 130.0, 150.0
+    while stays - falls > 1e-9:
+        middle = 0.5 * (falls + stays)
         if shaken_upright(length, a, middle, g) > 1.0:
             falls = middle
         else:
-            stands = middle
+            stays = middle
     return [Row("sways about upright as by Mathieu's equation", sway, state["natural_frequencies"][0], THEORY, "rad/s"),
             Row("falls beyond acos(-2 g l / a^2 Omega^2)", math.acos(-2.0 * g * length / pull), barrier, THEORY, "rad"),
-            Row("stands no longer below, by that equation", stands, lost["frequency"], THEORY, "rad/s")]
+            Row("stays upright no longer below, by that equation", stays, lost["frequency"], THEORY, "rad/s")]
 
 
 def foucault_pendulum(twin):

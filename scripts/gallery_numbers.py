@@ -38,7 +38,7 @@ class Twin:
 
 
 class Row:
-    """One line of a table: `notes` is the correct number, `in_print` what stands in the notes if they print one."""
+    """One line of a table: `notes` is the correct number, `in_print` the one that the notes print, if any."""
 
     def __init__(self, quantity, notes, computed, source, unit="", in_print=None, digits=None, tolerance=1e-6):
         self.quantity, self.notes, self.computed, self.source = quantity, notes, computed, source

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from .errors import InputError, Problem, RunError, SceneError, WhirlTwinError
     from .logs import Log, Table, read_log
-    from .reports import (analyze, balance, campbell, critical_map, loop, modes, orbit, response, routh,
+    from .reports import (analyze, balance, balance_job, campbell, critical_map, loop, modes, orbit, response, routh,
                           stability, stability_map)
     from .results import Result, Section
     from .scene import Scene, shipped_scenes
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 _PLACES = {
     "errors": ("InputError", "Problem", "RunError", "SceneError", "WhirlTwinError"),
     "logs": ("Log", "Table", "read_log"),
-    "reports": ("analyze", "balance", "campbell", "critical_map", "loop", "modes", "orbit", "response", "routh",
-                "stability", "stability_map"),
+    "reports": ("analyze", "balance", "balance_job", "campbell", "critical_map", "loop", "modes", "orbit", "response",
+                "routh", "stability", "stability_map"),
     "results": ("Result", "Section"),
     "scene": ("Scene", "shipped_scenes"),
     "simulation": ("Run", "Twin", "simulate"),

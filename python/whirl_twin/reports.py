@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Sequence
+from typing import Any, Callable, Mapping, Sequence
 
 from . import _native
 from .quantities import Quantity, listed, quantity, seconds, text, whole
@@ -142,6 +142,19 @@ def balance(scene: SceneLike, system: str | None = None, *, measured: "str | os.
                                   [text("planes", one) for one in listed(planes)],
                                   quantity("from_", from_, "rad/s"), quantity("to", to, "rad/s"), bool(known_run_out),
                                   text("lcm_prefix", lcm_prefix), path(import_settings)), "balance")
+
+
+def balance_job(job: "str | os.PathLike[str] | Mapping[str, Any]") -> Result:
+    """Correction masses from trial runs, or from the influence coefficients of an earlier job.
+
+    job: path of a file of ``twin balance``, or a mapping with its keys: ``probes``, ``planes``, ``initial``, ``trials``
+    or ``influence`` ... Numbers are in the SI and degrees, or text with a unit.
+
+    ``correction[PLANE]`` has ``mass_radius`` [kg m] and ``angle`` [deg], with their 95 % intervals where the errors are
+    known; ``residual[PROBE]`` the vibration that remains; ``influence`` the coefficients [amplitude/(kg m), deg].
+    Raises InputError with all errors of the job.
+    """
+    return Result(_native.balance_job(job if isinstance(job, Mapping) else os.fspath(job)), "balance")
 
 
 def loop(scene: SceneLike, *, speed: Quantity | None = None) -> Result:

@@ -3,19 +3,11 @@
 from __future__ import annotations
 
 import os
-import re
 from typing import Any, Mapping, Union
 
 from . import _native
-from .errors import InputError
 
 SceneLike = Union["Scene", str, "os.PathLike[str]", Mapping[str, Any]]
-
-_SYSTEM_KEYS = ("model", "drive", "integrator", "tolerance", "horizon", "substeps", "parameters", "initial", "inputs",
-                "count", "seed", "spread")
-_CONTROLLER_KEYS = ("type", "rate", "measures", "acts_on", "delay", "sensor", "actuator", "parameters", "mode",
-                    "timeout", "on_timeout")
-_STEP = re.compile(r"\.?([A-Za-z_]\w*)|\[(\d+)\]")
 
 
 def shipped_scenes() -> list[str]:
@@ -90,37 +82,11 @@ class Scene:
 
         Raises :class:`SceneError` for an invalid scene, InputError for a path that is not there.
         """
-        tree = self.to_dict()
+        paths: list[tuple[str, Any]] = []
         for name, change in changes.items():
-            part, where = self._part(tree, name, change)
-            if part is None:
-                _put(tree, name, change, self.source)
-                continue
-            if not isinstance(change, Mapping):
-                raise TypeError(f"{name}: must be a mapping of paths to values, found {type(change).__name__}")
-            for path, value in change.items():
-                if not isinstance(path, str):
-                    raise TypeError(f"{name}: paths must be text, found {type(path).__name__}")
-                first = re.split(r"[.\[]", path, 1)[0]
-                keys = {"systems": _SYSTEM_KEYS, "controllers": _CONTROLLER_KEYS}.get(where)
-                if keys is None or first in keys:
-                    _put(part, path, value, f"{self.source}: {where}.{name}")
-                else:
-                    _put(part.setdefault("parameters", {}), path, value, f"{self.source}: {where}.{name}.parameters")
-        return Scene(_native.scene_of_tree(tree, self.source))
-
-    @staticmethod
-    def _part(tree: dict[str, Any], name: str, change: Any):
-        """The part of the scene of this name, and the key that it is in; None: a key of the scene itself."""
-        if isinstance(change, Mapping) or name not in ("name", "step", "time", "gravity"):
-            for where in ("systems", "drives", "controllers", "sensors"):
-                if isinstance(tree.get(where), dict) and name in tree[where]:
-                    return tree[where][name], where
-        if name in ("name", "step", "time", "gravity"):
-            return None, ""
-        names = [each for where in ("systems", "drives", "controllers", "sensors") for each in tree.get(where) or {}]
-        raise InputError(f"{name}: must be the name of a system, drive, sensor or controller "
-                         f"({', '.join(names)}), or step, time, gravity or name")
+            paths += ([(f"{name}.{path}", value) for path, value in change.items()]
+                      if isinstance(change, Mapping) else [(name, change)])
+        return Scene(_native.changed_scene(self._native, paths))
 
     def __repr__(self) -> str:
         systems = ", ".join(f"{name}: {model}" for name, model in self.systems.items())
@@ -142,48 +108,3 @@ class Scene:
 
 def _scene_of(tree: dict[str, Any], source: str) -> Scene:
     return Scene(_native.scene_of_tree(tree, source))
-
-
-def _put(tree: Any, path: str, value: Any, where: str) -> None:
-    """Sets the value at a path, "discs[0].mass"; None removes a key."""
-    steps: list[str | int] = []
-    at = 0
-    while at < len(path):
-        step = _STEP.match(path, at)
-        if not step:
-            raise InputError(f"{where}: must be a path such as discs[0].mass, found '{path}'")
-        steps.append(step[1] if step[1] is not None else int(step[2]))
-        at = step.end()
-    if not steps:
-        raise InputError(f"{where}: must be a path such as discs[0].mass, found ''")
-    for step, following in zip(steps, steps[1:]):
-        tree = _inner(tree, step, following, path, where)
-    last = steps[-1]
-    if isinstance(last, int):
-        _require_place(tree, last, path, where)
-        tree[last] = value
-    elif not isinstance(tree, dict):
-        raise InputError(f"{where}.{path}: must be a key of a map, found none")
-    elif value is None:
-        tree.pop(last, None)
-    else:
-        tree[last] = value
-
-
-def _inner(tree: Any, step: str | int, following: str | int, path: str, where: str) -> Any:
-    if isinstance(step, int):
-        _require_place(tree, step, path, where)
-        return tree[step]
-    if not isinstance(tree, dict):
-        raise InputError(f"{where}.{path}: must be a key of a map, found none")
-    if step not in tree and not isinstance(following, int):
-        tree[step] = {}
-    if step not in tree:
-        raise InputError(f"{where}.{step}: must be a list to change '{path}' in, found none")
-    return tree[step]
-
-
-def _require_place(tree: Any, index: int, path: str, where: str) -> None:
-    if not isinstance(tree, list) or index >= len(tree):
-        entries = len(tree) if isinstance(tree, list) else 0
-        raise InputError(f"{where}.{path}: must be an entry of a list, found {entries} entries")

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "algebra/dense.h"
+#include "analysis/cyclic_coordinates.h"
 #include "analysis/mode_tracking.h"
 #include "analysis/polynomial_roots.h"
 
@@ -33,7 +34,7 @@ class CoupledModes {
     for (std::size_t count = 12; whirls.size() < kEnough; count *= 4) {
       whirls.clear();
       for (auto& mode : modes_.lowest(cross_coupling, count)) {
-        if (isWhirl(*mode)) {
+        if (isWhirl(*mode) || mode->eigenvalue.real() > 0.0) {
           whirls.push_back(std::move(*mode));
         }
       }
@@ -58,15 +59,18 @@ class CoupledModes {
 };
 
 /// [N/m], of the rotor at a station, both directions in series: what Q is compared with. The
-/// largest element of the matrix would be that of a stiff support far away. Of a rotor without a
-/// static stiffness that largest element.
+/// largest element of the matrix would be that of a stiff support far away. Of a rotor that moves
+/// there without stiffness, or that springs push, that largest element.
 double stiffnessAt(const Linearization& matrices, const Station& station) {
-  const Lu stiffness(matrices.stiffness);
-  const double flexibility = station.along_x.dot(stiffness.solve(station.along_x)) +
-                             station.along_y.dot(stiffness.solve(station.along_y));
-  return flexibility > 0.0 && std::isfinite(2.0 / flexibility)
-             ? 2.0 / flexibility
-             : matrices.stiffness.cwiseAbs().maxCoeff();
+  if (!rigidBodyMotions(matrices).any()) {
+    const Lu stiffness(matrices.stiffness);
+    const double flexibility = station.along_x.dot(stiffness.solve(station.along_x)) +
+                               station.along_y.dot(stiffness.solve(station.along_y));
+    if (flexibility > 0.0) {
+      return 2.0 / flexibility;
+    }
+  }
+  return matrices.stiffness.cwiseAbs().maxCoeff();
 }
 
 }  // namespace

@@ -298,10 +298,6 @@ std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen:
   return operatingPointAmong(dynamics, equilibria(dynamics, speed, q, v), q, v, speed);
 }
 
-bool isJudgedOnlyAtRest(const Dynamics& dynamics) {
-  return !dynamics.linear() && (dynamics.isRotor() || !dynamics.loadFrequencies().empty());
-}
-
 Stability unjudged() {
   Stability s;
   s.routh.verdict = Verdict::kUncertain;
@@ -319,8 +315,9 @@ std::optional<Equilibrium> operatingPointAmong(const Dynamics& dynamics,
       known.begin(), known.end(), [](const Equilibrium& e) { return e.stability.bounded(); });
   const bool periodic = std::any_of(known.begin(), known.end(),
                                     [](const Equilibrium& e) { return e.periodic.has_value(); });
-  // A rotor that is unstable in its films still whirls about its equilibrium.
-  if (!periodic && (first_unbounded != known.begin() || !isJudgedOnlyAtRest(dynamics))) {
+  // A rotor that is unstable in its films still whirls about its equilibrium, and an oscillator
+  // that excites itself swings about it.
+  if (!periodic && (first_unbounded != known.begin() || dynamics.linear())) {
     known.erase(first_unbounded, known.end());
   }
   Eigen::VectorXd from = q;

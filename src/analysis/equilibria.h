@@ -76,10 +76,10 @@ std::optional<Eigen::VectorXd> equilibriumNear(const Dynamics& dynamics, const E
 /// motion after its oscillation has decayed, not necessarily the nearest one. From a maximum of the
 /// potential, and where rates are driven, the nearest (angles in the shorter direction, without
 /// cyclic coordinates; of several rates of a driven one the nearest). With the momenta of the
-/// motion through q and v; nothing if there is none. For a nonlinear rotor without a bounded one
-/// the nearest of the others: above its threshold speed a rotor whirls about an unstable
-/// equilibrium. With alternating loads, bounded or not: the creeping mean motion may settle where
-/// the motion itself grows.
+/// motion through q and v; nothing if there is none. For a nonlinear system without a
+/// bounded one the nearest of the others: above its threshold speed a rotor whirls about an
+/// unstable equilibrium. With alternating loads, bounded or not: the creeping mean motion may
+/// settle where the motion itself grows.
 std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& v, double speed);
 /// As operatingPoint(), among equilibria that are known.
@@ -92,11 +92,8 @@ std::optional<Equilibrium> operatingPointAmong(const Dynamics& dynamics,
 bool same(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Equilibrium& a,
           const Equilibrium& b);
 
-/// Whether stability can be evaluated only about an equilibrium: away from it a nonlinear rotor,
-/// with journals that no film carries, is in no steady motion, and one driven by alternating loads
-/// in no periodic one. Any other system is linearized at its present state.
-bool isJudgedOnlyAtRest(const Dynamics& dynamics);
-/// The verdict kUncertain, without numbers: for such a system without a known equilibrium.
+/// The verdict kUncertain, without numbers: for a nonlinear system without a known equilibrium.
+/// Away from one it is in no steady motion whose stability could be evaluated.
 Stability unjudged();
 
 /// Linearization at rest in q at a constant speed [rad/s].

@@ -65,7 +65,7 @@ std::vector<double> speedsOf(const MatrixXd& stiffness, const MatrixXd& inertia,
                              std::size_t modes) {
   const Cholesky factor(stiffness);
   if (!factor.succeeded()) {
-    throw RunFailure("critical speed map: the shaft buckles under its axial force");
+    throw RunFailure("undamped critical speeds: the shaft buckles under its axial force");
   }
   const MatrixXd half = factor.solveLower(inertia);
   const VectorXd mu = symmetricEigenvalues(factor.solveLower(half.transpose())).reverse();
@@ -106,7 +106,7 @@ CriticalSpeedMap criticalSpeedMap(const FlexibleShaft& shaft, const std::vector<
                                   double from, double to, int points, std::size_t modes) {
   const std::set<int> places(supports.begin(), supports.end());
   if (places.size() < 2) {
-    throw InputError("critical speed map: expected bearings at two nodes or more");
+    throw InputError("undamped critical speeds: expected bearings at two nodes or more");
   }
   const ForwardWhirl whirl = forwardWhirl(shaft);
   CriticalSpeedMap map;

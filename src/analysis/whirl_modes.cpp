@@ -161,7 +161,7 @@ std::optional<WhirlModes> lowestWhirlModes(const BandedLinearization& at_speed,
 }
 
 bool isWhirl(const WhirlMode& mode) {
-  return mode.dampingRatio() <= kMaxWhirlDamping;
+  return mode.dampingRatio() <= kMaxWhirlDamping && mode.dampingRatio() > -kMaxWhirlGrowth;
 }
 
 double WhirlMode::logDecrement() const {

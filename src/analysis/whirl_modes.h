@@ -32,9 +32,11 @@ struct WhirlMode {
 };
 
 constexpr double kMaxWhirlDamping = 0.7;  ///< damping ratio, of a whirl: isWhirl()
+constexpr double kMaxWhirlGrowth = 0.99;  ///< negative damping ratio, likewise
 
 /// A motion whose damping ratio is above 0.7 hardly goes round once: an overdamped root, or one
-/// that is nearly so, of a bearing with much damping. No verdict on whirl modes is about it.
+/// that is nearly so, of a bearing with much damping. One that grows by a factor of 1e19 while it
+/// goes round once is the divergence of a buckled shaft. No verdict on whirl modes is about them.
 bool isWhirl(const WhirlMode& mode);
 
 struct WhirlModes {

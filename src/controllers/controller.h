@@ -2,6 +2,7 @@
 // outputs. Sensors, delay and actuators are outside it.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -50,6 +51,13 @@ class Controller {
   /// front of law(), such as a notch, is frozen and does not adapt to the measurement: the
   /// linearization is that of law().
   virtual bool holds(double /*shaft_speed*/, double /*acceleration*/) const { return false; }
+  /// Matrices that a design has computed, by name, for reports: a `feedback` K of u = -K x, an
+  /// `estimator` M of x^ = x~ + M (y - c x~).
+  struct Gain {
+    const char* name;
+    Eigen::MatrixXd matrix;
+  };
+  virtual std::vector<Gain> gains() const { return {}; }
   /// Operating point of linear(): at this measurement, with zero state, its outputs are 0. Empty:
   /// 0.
   virtual std::vector<double> setpoint() const { return {}; }

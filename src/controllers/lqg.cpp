@@ -53,6 +53,10 @@ class Lqg final : public Controller {
     predicted_.noalias() += gains_.b * cut_;
   }
 
+  std::vector<Gain> gains() const override {
+    return {{"feedback", gains_.feedback}, {"estimator", gains_.estimator}};
+  }
+
   void takeOver(const Controller& before) noexcept override {
     if (const auto* const other = dynamic_cast<const Lqg*>(&before.law())) {
       predicted_ = other->predicted_;

@@ -200,7 +200,7 @@ Eigen::VectorXd ExtendedKalmanFilter::rowOf(std::size_t channel) const {
       h[n_ + coordinate] = 1.0;
       break;
     case SignalSpec::Kind::kDisplacement: {
-      const Station at = model_.system()->dynamics->stations()[c.signal.station];
+      const Station at = model_.system()->dynamics->places()[c.signal.station];
       const double cosine = std::cos(c.signal.direction), sine = std::sin(c.signal.direction);
       h.head(n_) = cosine * at.along_x + sine * at.along_y;
       if (run_out_of_[channel] >= 0) {

@@ -95,6 +95,15 @@ class Dynamics {
   /// Where along its shaft a rotor's whirl is seen, the place that is published first; empty for
   /// anything else.
   virtual std::vector<Station> stations() const { return {}; }
+  /// What moves beside the shaft: its pedestals.
+  virtual std::vector<Station> casing() const { return {}; }
+  /// The stations, then the casing: a sensor may measure at any of them.
+  std::vector<Station> places() const {
+    std::vector<Station> all = stations();
+    const std::vector<Station> beside = casing();
+    all.insert(all.end(), beside.begin(), beside.end());
+    return all;
+  }
   /// The matrices and forces of a linear model as functions of the speed of its shaft, if it has
   /// one. Throws std::logic_error for any other and for one whose loads alternate by themselves.
   virtual LinearRotor linearRotor() const;

@@ -19,7 +19,8 @@ namespace whirl_twin {
 struct RotorDescription {
   std::string model;
   std::vector<CoordinateInfo> coordinates;
-  std::vector<Station> stations;  ///< the published one first
+  std::vector<Station> stations;     ///< the published one first
+  std::vector<Station> casing = {};  ///< what moves beside the shaft
   std::vector<InputInfo> inputs = {};
   double phase_mark = 0.0;      ///< [rad], on the shaft: the phase counts from it
   double natural_length = 1.0;  ///< [m], scale of the whirl
@@ -45,6 +46,7 @@ class LinearRotorDynamics final : public Dynamics {
   double naturalLength() const override { return description_.natural_length; }
   const Dynamics& atMeanLoad() const override { return balanced_ ? *balanced_ : *this; }
   std::vector<Station> stations() const override { return description_.stations; }
+  std::vector<Station> casing() const override { return description_.casing; }
   LinearRotor linearRotor() const override { return rotor_; }
 
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,

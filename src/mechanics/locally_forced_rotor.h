@@ -31,6 +31,7 @@ class LocallyForcedRotor final : public Dynamics {
   double naturalLength() const override { return natural_length_; }
   const Dynamics& atMeanLoad() const override { return balanced_ ? *balanced_ : *this; }
   std::vector<Station> stations() const override { return linear_->stations(); }
+  std::vector<Station> casing() const override { return linear_->casing(); }
   /// Without the nonlinear forces.
   LinearRotor linearRotor() const override { return linear_->linearRotor(); }
 

@@ -116,13 +116,12 @@ std::vector<InputInfo> SpinningRotor::inputs() const {
   return all;
 }
 
-std::vector<Station> SpinningRotor::stations() const {
-  std::vector<Station> all = held_->stations();
-  for (Station& station : all) {
-    station.along_x = withSpin(station.along_x, 0.0);
-    station.along_y = withSpin(station.along_y, 0.0);
+std::vector<Station> SpinningRotor::turned(std::vector<Station> places) {
+  for (Station& place : places) {
+    place.along_x = withSpin(place.along_x, 0.0);
+    place.along_y = withSpin(place.along_y, 0.0);
   }
-  return all;
+  return places;
 }
 
 VectorXd SpinningRotor::residualForce(const VectorXd& q, const VectorXd& v,

@@ -37,7 +37,8 @@ class SpinningRotor final : public Dynamics {
   double phaseMark() const override { return held_->phaseMark(); }
   double naturalLength() const override { return held_->naturalLength(); }
   const Dynamics& atMeanLoad() const override { return balanced_ ? *balanced_ : *this; }
-  std::vector<Station> stations() const override;
+  std::vector<Station> stations() const override { return turned(held_->stations()); }
+  std::vector<Station> casing() const override { return turned(held_->casing()); }
 
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                const EvaluationPoint<double>& at) const override;
@@ -66,6 +67,8 @@ class SpinningRotor final : public Dynamics {
   Sketch sketch(const Eigen::VectorXd& q, const EvaluationPoint<double>& at) const override;
 
  private:
+  /// Places of the held rotor, in its coordinates and the angle of its shaft.
+  static std::vector<Station> turned(std::vector<Station> places);
   Eigen::VectorXd lever(double angle) const;      ///< s
   Eigen::VectorXd leverTurn(double angle) const;  ///< ds / d theta
   double localMoment(const Eigen::VectorXd& x, const Eigen::VectorXd& r, double speed) const;

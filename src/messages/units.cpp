@@ -173,7 +173,12 @@ Units& units() {
 /// Whether a factor, which is a number and no exponent, follows at `at`: in "m 3", "m/2".
 bool isFactor(const std::string& text, std::size_t at) {
   return std::isdigit(static_cast<unsigned char>(text[at])) != 0 &&
-         std::string("*/. ").find(text[at - 1]) != std::string::npos;
+         std::string("*/. (").find(text[at - 1]) != std::string::npos;
+}
+
+/// Whether a function's argument begins at `at`, as in "lg(mW)"; not a product's, as in "um/(g m)".
+bool isArgument(const std::string& text, std::size_t at) {
+  return text[at] == '(' && std::string("*/. ").find(text[at - 1]) == std::string::npos;
 }
 
 /// Excludes numbers, products with numbers and sums: "1/s" is a unit, "10", "-m", "m 3" and "m + 1"
@@ -181,12 +186,12 @@ bool isFactor(const std::string& text, std::size_t at) {
 bool looksLikeUnit(const std::string& text) {
   const bool reciprocal = text.compare(0, 2, "1/") == 0;
   const std::size_t begin = reciprocal ? 2 : 0;
-  if (text.size() <= begin || text.find_first_of("+@,;:()#'\"\t\n\v\f\r") != std::string::npos ||
-      std::string("0123456789.-*/^ ").find(text[begin]) != std::string::npos) {
+  if (text.size() <= begin || text.find_first_of("+@,;:#'\"\t\n\v\f\r") != std::string::npos ||
+      std::string("0123456789.-*/^ ()").find(text[begin]) != std::string::npos) {
     return false;
   }
   for (std::size_t i = begin + 1; i < text.size(); ++i) {
-    if (isFactor(text, i)) {
+    if (isFactor(text, i) || isArgument(text, i)) {
       return false;
     }
   }

@@ -296,6 +296,7 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   }
   description.stations =
       publishedFirst(assembly.stations(), probe, publishedNodes(settings, shaft));
+  description.casing = assembly.pedestals();
   const std::vector<PlacedMagnet> magnets =
       placed(nodeMagnets(settings, shaft.nodes()), assembly.stations());
   description.inputs = inputsAt(pushable, assembly.stations(), magnets);

@@ -13,6 +13,7 @@ ModelSetup levitatedRotorSetup(std::shared_ptr<const Dynamics> plain,
   description.model = plain->model();
   description.coordinates = plain->coordinates();
   description.stations = plain->stations();
+  description.casing = plain->casing();
   description.inputs = plain->inputs();
   description.phase_mark = plain->phaseMark();
   description.natural_length = plain->naturalLength();

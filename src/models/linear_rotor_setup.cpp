@@ -133,6 +133,7 @@ ModelSetup withExactLinearPart(ModelSetup setup, std::shared_ptr<const Dynamics>
   description.model = linear->model();
   description.coordinates = linear->coordinates();
   description.stations = linear->stations();
+  description.casing = linear->casing();
   description.inputs = linear->inputs();
   LinearRotor rotor = linear->linearRotor();
   Eigen::MatrixXd damped = Eigen::MatrixXd::Zero(linear->dof(), linear->dof());

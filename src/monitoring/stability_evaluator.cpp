@@ -183,7 +183,7 @@ Stability StabilityEvaluator::openStability(const state::Instant& at,
   } else if (dynamics.linear()) {
     about.setZero();
   }
-  if (!point && isJudgedOnlyAtRest(dynamics)) {
+  if (!point && !dynamics.linear()) {
     return unjudged();
   }
   Stability s = point ? point->stability
@@ -228,7 +228,7 @@ state::StabilityMargin StabilityEvaluator::evaluate(const state::Instant& at,
     s = loop_ ? loop_->evaluate(at.time, {&dynamics, present, rates, shaft_speed, acceleration},
                                 beside, about)
               : openStability(at, present, rates, shaft_speed, about);
-    if (unreduced_ && (motion_ || !isJudgedOnlyAtRest(dynamics))) {
+    if (unreduced_ && (motion_ || dynamics.linear())) {
       reduction = fullOrderMargins(
           about, dynamics.hasShaft() ? speed : (motion_ ? motion_->v : rates)[n - 1]);
     }

@@ -5,7 +5,6 @@
 #include "messages/input_error.h"
 #include "messages/names.h"
 #include "scene/node_reader.h"
-#include "scene/signal_names.h"
 #include "transport/ros_parameters.h"
 
 namespace whirl_twin {
@@ -35,20 +34,12 @@ XmlRpc::XmlRpcValue toParameter(const YAML::Node& node) {
 }  // namespace
 
 LiveAlarmSettings alarmSettingsOf(const BuiltScene& scene, std::vector<std::string> others) {
-  std::vector<std::string> rotors;
-  std::vector<std::string> stations;
-  for (const SharedSystem& system : scene.systems) {
-    if (system->dynamics->isRotor()) {
-      rotors.push_back(system->spec.name);
-      const auto names = publishedStations(system->spec.name, *system->dynamics);
-      stations.insert(stations.end(), names.begin() + 1, names.end());
-    }
-  }
+  BuiltScene::RotorNames names = scene.rotorNames();
   XmlRpc::XmlRpcValue all;
   const std::string node = ros::this_node::getName();
   const bool any = ros::param::get(node, all) && all.getType() == XmlRpc::XmlRpcValue::TypeStruct;
   return LiveAlarmSettings(any ? toYaml(all) : YAML::Node(YAML::NodeType::Map), node,
-                           std::move(rotors), std::move(others), std::move(stations));
+                           std::move(names.rotors), std::move(others), std::move(names.stations));
 }
 
 AlarmSettingsService::AlarmSettingsService(TwinMonitor& monitor, LiveAlarmSettings& settings,

@@ -1,4 +1,4 @@
-// Long work called from Python: it runs on a thread of its own, which never touches Python, while
+// Long work called from Python: it runs on a second thread, which never touches Python, while
 // the calling thread, without the interpreter's lock, waits for it, looks for Ctrl-C, calls the
 // progress callback, and hands on what a command would print on standard error.
 #pragma once

@@ -13,6 +13,7 @@
 #include "python/listening.h"
 #include "python/scene_object.h"
 #include "requests/document.h"
+#include "requests/field_balancing.h"
 #include "requests/rotor_requests.h"
 #include "requests/routh_request.h"
 #include "requests/scene_requests.h"
@@ -189,6 +190,15 @@ void bindReports(py::module_& module) {
       },
       py::arg("scene"), py::arg("system"), py::arg("measured"), py::arg("planes"), py::arg("start"),
       py::arg("stop"), py::arg("run_out_known"), py::arg("lcm_prefix"), py::arg("import_settings"));
+  module.def(
+      "balance_job",
+      [](const py::object& job) {
+        const BalancingJob read = py::isinstance<py::str>(job)
+                                      ? readBalancingJob(job.cast<std::string>())
+                                      : readBalancingJob(treeOf(job), "job");
+        return fieldBalancingDocument(read);
+      },
+      py::arg("job"));
   module.def(
       "loop",
       [](const SharedScene& scene, Number speed) {

@@ -5,30 +5,25 @@
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "reports/sample_writer.h"
+#include "reports/sampled_signals.h"
 #include "twin/twin.h"
 
 namespace whirl_twin {
-
-struct SignalName {
-  std::string name;  ///< "rotor.x", as in the table of `twin simulate` where that has it
-  std::string unit;
-};
 
 class SampledRun final : public SampleWriter {
  public:
   /// For `samples` of these systems of the twin, which outlives the samples' writing. Throws
   /// InputError where they do not fit into the memory that is free, unless `insist`.
-  SampledRun(const Twin& twin, std::vector<std::size_t> systems, std::size_t samples, bool insist);
+  SampledRun(const Twin& twin, const std::vector<std::size_t>& systems, std::size_t samples,
+             bool insist);
 
   void write(const Observer& observer) override;
   void finish() override {}
 
-  const std::vector<SignalName>& signals() const { return signals_; }
+  const std::vector<SignalName>& signals() const { return signals_.names(); }
   std::size_t samples() const { return samples_; }
   /// Samples written so far.
   std::size_t written() const { return written_; }
@@ -41,26 +36,9 @@ class SampledRun final : public SampleWriter {
   Values takeValues() { return std::move(values_); }
 
  private:
-  /// Displacement of a place on the shaft: its factors of the coordinates, without zeros.
-  struct Place {
-    std::vector<std::pair<std::size_t, double>> x, y;
-  };
-  struct Sampled {
-    std::size_t system;
-    std::vector<Place> places;
-    bool rotor, shaft;
-  };
-
-  void addSystem(std::size_t system);
-  void put(double value) { values_.get()[row_++ * samples_ + written_] = value; }
-
-  const Twin& twin_;
-  std::vector<Sampled> sampled_;
-  std::vector<std::size_t> controllers_;  // that have to do with the systems
-  std::vector<SignalName> signals_;
+  SampledSignals signals_;
   std::size_t samples_;
   std::size_t written_ = 0;
-  std::size_t row_ = 0;
   Values values_;
 };
 

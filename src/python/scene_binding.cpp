@@ -3,13 +3,16 @@
 #include <pybind11/stl.h>
 
 #include <functional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "messages/input_error.h"
 #include "python/conversions.h"
 #include "python/listening.h"
 #include "python/scene_object.h"
 #include "requests/shipped_scenes.h"
+#include "scene/scene_changes.h"
 #include "scene/scene_error.h"
 #include "scene/scene_reader.h"
 #include "scene/yaml_file.h"
@@ -49,6 +52,15 @@ SharedScene sceneOfTree(const py::handle& value, const std::string& source) {
   return readShared(source, [&] { return tree; });
 }
 
+SharedScene changedScene(const SceneObject& scene,
+                         const std::vector<std::pair<std::string, py::object>>& changes) {
+  YAML::Node tree = separated(scene.tree);
+  for (const auto& [path, value] : changes) {
+    changeScene(tree, path, treeOf(value));
+  }
+  return readShared(scene.scene.source, [&] { return tree; });
+}
+
 py::dict systemsOf(const SceneObject& object) {
   py::dict systems;
   for (const SystemSpec& system : object.scene.systems) {
@@ -86,6 +98,7 @@ void bindScene(py::module_& module) {
   module.def("scene_of_file", sceneOfFile, py::arg("path"));
   module.def("scene_of_text", sceneOfText, py::arg("text"), py::arg("source"));
   module.def("scene_of_tree", sceneOfTree, py::arg("tree"), py::arg("source"));
+  module.def("changed_scene", changedScene, py::arg("scene"), py::arg("changes"));
   module.def("scene_path", scenePath, py::arg("scene"));
   module.def("shipped_scenes", shippedNames);
   module.def("quantity", quantityOf, py::arg("name"), py::arg("value"), py::arg("unit"));

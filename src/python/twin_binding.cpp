@@ -40,7 +40,7 @@ py::dict stateOf(const SteppedTwin& stepped, const std::string& system) {
     state["whirl_radius"] = observer.whirlRadius(i);
     state["whirl_phase"] = observer.whirlPhase(i);
   }
-  const std::vector<Station> stations = built.dynamics->stations();
+  const std::vector<Station> stations = built.dynamics->places();
   if (!stations.empty()) {
     const Eigen::Map<const Eigen::VectorXd> q(observer.coordinates(i), dof);
     std::vector<double> x, y;
@@ -66,7 +66,7 @@ py::dict namesOf(const SteppedTwin& stepped, const std::string& system) {
   for (const InputInfo& input : dynamics.inputs()) {
     inputs.append(pythonText(input.name));
   }
-  for (const Station& station : dynamics.stations()) {
+  for (const Station& station : dynamics.places()) {
     stations.append(pythonText(station.name));
   }
   py::dict names;

@@ -198,12 +198,16 @@ void numberBranches(const CampbellReport& r, const Value& value, Chart& chart) {
   chart.notes.insert(chart.notes.end(), numbers.begin(), numbers.end());
 }
 
-Chart frequencyChart(const CampbellReport& r) {
+Chart frequencyChart(const CampbellReport& r, const ShownUnits& u) {
   Chart chart;
-  chart.x = {"", false, true, SecondScale{"rpm", 1.0 / kRpm}};
-  chart.y.label = "damped whirl frequency (rad/s)";
-  chart.y.tight = true;  // where a branch leaves the chart it goes to its edge
+  chart.x = tightAxis("", u.speed, u.besideSpeed());
+  chart.x.label.clear();  // that of the chart below
+  // Where a branch leaves the chart it goes to its edge.
+  chart.y = tightAxis("damped whirl frequency", u.frequency);
   const double most = highestFrequency(r);
+  Series range{"", {r.range.from, r.range.from}, {0.0, most}};  // branches at the top are seen
+  range.line = false;
+  chart.series.push_back(range);
   addBands(r, true, chart);
   addBranches(r, {&CampbellPoint::frequency, most}, true, chart);
   numberBranches(r, {&CampbellPoint::frequency, most}, chart);
@@ -234,16 +238,15 @@ Chart frequencyChart(const CampbellReport& r) {
     name_it = false;
     chart.series.push_back(mark);
     if (c.harmonic == 1.0 && c.mode.whirl != Whirl::kBackward) {
-      chart.vertical.push_back(
-          {c.speed, fmt::format("{:.4g} rad/s, {:.0f} rpm", c.speed, c.speed / kRpm)});
+      chart.vertical.push_back({c.speed, u.speedText(c.speed)});
     }
   }
   return chart;
 }
 
-Chart decrementChart(const CampbellReport& r) {
+Chart decrementChart(const CampbellReport& r, const ShownUnits& u) {
   Chart chart;
-  chart.x = {"shaft speed (rad/s)", false, true};
+  chart.x = tightAxis("shaft speed", u.speed);
   chart.y.label = "logarithmic decrement";
   addBands(r, false, chart);
   addBranches(r, {&CampbellPoint::log_decrement, kMaxDecrement}, false, chart);
@@ -387,10 +390,10 @@ std::string text(const CampbellReport& r, const ShownUnits& u) {
                          u.speed.in(r.system->rotor.highest_speed), u.speed.name, r.beyond);
 }
 
-Figure figure(const CampbellReport& r) {
+Figure figure(const CampbellReport& r, const ShownUnits& u) {
   Figure figure;
   figure.title = r.system->title() + ": Campbell diagram";
-  figure.charts = {frequencyChart(r), decrementChart(r)};
+  figure.charts = {frequencyChart(r, u), decrementChart(r, u)};
   figure.width = 900;
   figure.chart_height = 430;
   return figure;

@@ -34,6 +34,6 @@ Json json(const CampbellReport& report);
 std::string text(const CampbellReport& report, const ShownUnits& units = {});
 /// Branches, crossings, peaks.
 CsvTables tables(const CampbellReport& report);
-Figure figure(const CampbellReport& report);
+Figure figure(const CampbellReport& report, const ShownUnits& units = {});
 
 }  // namespace whirl_twin

@@ -235,11 +235,12 @@ std::string text(const CriticalMapReport& r, const ShownUnits& u) {
                      : out;
 }
 
-Figure figure(const CriticalMapReport& r) {
+Figure figure(const CriticalMapReport& r, const ShownUnits& u) {
   Chart chart;
-  chart.x = {"stiffness of each bearing (N/m)", true, true};
-  chart.y.label = "undamped critical speed (rad/s)";
-  chart.y.logarithmic = true;
+  chart.x = tightAxis("stiffness of each bearing", u.stiffness);
+  chart.y = tightAxis("undamped critical speed", u.speed);
+  chart.y.tight = false;
+  chart.x.logarithmic = chart.y.logarithmic = true;
   for (std::size_t mode = 0; mode < r.map.speeds.size(); ++mode) {
     Series curve{"", r.map.stiffness, r.map.speeds[mode], Pen{ink::kBlue, 2.2}};
     curve.name = mode == 0 ? "critical speed" : "";
@@ -269,9 +270,7 @@ Figure figure(const CriticalMapReport& r) {
   }
   if (r.system->highest_speed > 0.0) {
     chart.horizontal.push_back(
-        {r.system->highest_speed,
-         fmt::format("highest speed {:.4g} rad/s, {:.0f} rpm", r.system->highest_speed,
-                     r.system->highest_speed / kRpm)});
+        {r.system->highest_speed, "highest speed " + u.speedText(r.system->highest_speed)});
   }
   Figure figure;
   figure.title = r.system->title() + ": undamped critical speed map";

@@ -50,6 +50,6 @@ Json json(const CriticalMapReport& report);
 std::string text(const CriticalMapReport& report, const ShownUnits& units = {});
 /// Critical speeds over the stiffness; the bearings over the speed.
 CsvTables tables(const CriticalMapReport& report);
-Figure figure(const CriticalMapReport& report);
+Figure figure(const CriticalMapReport& report, const ShownUnits& units = {});
 
 }  // namespace whirl_twin

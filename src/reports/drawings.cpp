@@ -145,6 +145,10 @@ void Drawings::add(const std::string& path, const Json& figure) {
   await(path, figureFormat(path), "figure", figure);
 }
 
+void Drawings::addOverlaid(const std::string& path, const Json& figures_by_name) {
+  await(path, figureFormat(path), "figures", figures_by_name);
+}
+
 void Drawings::addPage(const std::string& path, const Json& page) {
   await(path, "html", "page", page);
 }

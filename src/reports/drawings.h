@@ -17,6 +17,8 @@ class Drawings {
   /// The name ends in .svg, .png or .pdf; or in .json, of a file with the figure's data, for which
   /// no Python is needed. Throws RunFailure if there is no such folder.
   void add(const std::string& path, const Json& figure);
+  /// The curves of several figures over each other, each under its name; not as .json.
+  void addOverlaid(const std::string& path, const Json& figures_by_name);
   /// HTML, of a ReportPage.
   void addPage(const std::string& path, const Json& page);
 

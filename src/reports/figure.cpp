@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/sketch_json.h"
-
 namespace whirl_twin {
 
 namespace {
@@ -15,8 +13,9 @@ Json numberOf(double value) {
   return std::fabs(value) <= kMaxOnAxis ? Json(value + 0.0) : Json();
 }
 
-Json numbersOf(const std::vector<double>& values) {
-  return listJson(values, numberOf);
+/// In a unit.
+Json numbersOf(const std::vector<double>& values, double unit = 1.0) {
+  return listJson(values, [unit](double value) { return numberOf(value / unit); });
 }
 
 std::string colorOf(const Ink& ink) {
@@ -35,7 +34,7 @@ Json axisJson(const ChartAxis& axis) {
           {"second", second},    {"degrees", axis.degrees},         {"inverted", axis.inverted}};
 }
 
-Json seriesJson(const Series& series) {
+Json seriesJson(const Series& series, double x_unit, double y_unit) {
   Json pen;
   if (series.pen) {
     pen = {{"color", colorOf(series.pen->ink)},
@@ -43,8 +42,8 @@ Json seriesJson(const Series& series) {
            {"dash", series.pen->dash}};
   }
   return {{"name", series.name},
-          {"x", numbersOf(series.x)},
-          {"y", numbersOf(series.y)},
+          {"x", numbersOf(series.x, x_unit)},
+          {"y", numbersOf(series.y, y_unit)},
           {"pen", pen},
           {"line", series.line},
           {"marks", series.marks == Marks::kDots    ? "dots"
@@ -53,31 +52,35 @@ Json seriesJson(const Series& series) {
           {"fill", series.fill ? Json(colorOf(*series.fill)) : Json()}};
 }
 
-Json lineJson(const ReferenceLine& line) {
-  return {{"at", numberOf(line.at)}, {"label", line.label}};
+Json linesJson(const std::vector<ReferenceLine>& lines, double unit = 1.0) {
+  return listJson(lines, [unit](const ReferenceLine& line) -> Json {
+    return {{"at", numberOf(line.at / unit)}, {"label", line.label}};
+  });
 }
 
 Json chartJson(const Chart& chart) {
-  return {
-      {"title", chart.title},
-      {"x", axisJson(chart.x)},
-      {"y", axisJson(chart.y)},
-      {"series", listJson(chart.series, seriesJson)},
-      {"vertical", listJson(chart.vertical, lineJson)},
-      {"horizontal", listJson(chart.horizontal, lineJson)},
-      {"bands", listJson(chart.bands,
-                         [](const Band& band) -> Json {
-                           return {{"name", band.name},
-                                   {"low", numberOf(band.low)},
-                                   {"high", numberOf(band.high)},
-                                   {"color", colorOf(band.ink)}};
-                         })},
-      {"notes",
-       listJson(chart.notes,
-                [](const Note& note) -> Json {
-                  return {{"x", numberOf(note.x)}, {"y", numberOf(note.y)}, {"text", note.text}};
-                })},
-      {"equal_aspect", chart.equal_aspect}};
+  const double x_unit = chart.x.unit, y_unit = chart.y.unit;
+  return {{"title", chart.title},
+          {"x", axisJson(chart.x)},
+          {"y", axisJson(chart.y)},
+          {"series", listJson(chart.series,
+                              [&](const Series& one) { return seriesJson(one, x_unit, y_unit); })},
+          {"vertical", linesJson(chart.vertical, x_unit)},
+          {"horizontal", linesJson(chart.horizontal, y_unit)},
+          {"bands", listJson(chart.bands,
+                             [&](const Band& band) -> Json {
+                               return {{"name", band.name},
+                                       {"low", numberOf(band.low / x_unit)},
+                                       {"high", numberOf(band.high / x_unit)},
+                                       {"color", colorOf(band.ink)}};
+                             })},
+          {"notes", listJson(chart.notes,
+                             [&](const Note& note) -> Json {
+                               return {{"x", numberOf(note.x / x_unit)},
+                                       {"y", numberOf(note.y / y_unit)},
+                                       {"text", note.text}};
+                             })},
+          {"equal_aspect", chart.equal_aspect}};
 }
 
 std::string axisLabels(const ChartAxis& axis) {
@@ -97,13 +100,15 @@ std::string descriptionOf(const Figure& figure) {
         separator = ", ";
       }
     }
-    for (const std::vector<ReferenceLine>* lines : {&chart.vertical, &chart.horizontal}) {
-      for (const ReferenceLine& line : *lines) {
+    const auto add = [&](const std::vector<ReferenceLine>& lines, double unit) {
+      for (const ReferenceLine& line : lines) {
         if (!line.label.empty()) {
-          text += fmt::format(" [{} at {:.4g}]", line.label, line.at);
+          text += fmt::format(" [{} at {:.4g}]", line.label, line.at / unit);
         }
       }
-    }
+    };
+    add(chart.vertical, chart.x.unit);
+    add(chart.horizontal, chart.y.unit);
   }
   return text;
 }
@@ -237,8 +242,8 @@ Json figureJson(const ResponseMap& map) {
           {"label", map.label},
           {"x_levels", numbersOf(map.x_levels)},
           {"y_levels", numbersOf(map.y_levels)},
-          {"values", listJson(map.values, numbersOf)},
-          {"contours", listJson(map.contours, lineJson)}};
+          {"values", listJson(map.values, [](const auto& row) { return numbersOf(row); })},
+          {"contours", linesJson(map.contours)}};
 }
 
 Json figureJson(const SketchPicture& picture) {

@@ -65,7 +65,7 @@ struct Band {
   Ink ink;
 };
 
-/// A second unit of the axis, with its conversion factor: rad/s as rpm.
+/// A second unit of the axis, with its conversion factor from the label's: rad/s as rpm.
 struct SecondScale {
   std::string label;
   double factor = 1.0;
@@ -79,6 +79,7 @@ struct ChartAxis {
   std::optional<SecondScale> second = std::nullopt;
   bool degrees = false;   ///< with ticks at fractions of a turn
   bool inverted = false;  ///< grows downwards or to the left
+  double unit = 1.0;      ///< of the label, in that of the numbers: kRpm for rpm of rad/s
 };
 
 /// A line across the whole chart: a critical speed, a limit. Drawn within the range of the data.
@@ -164,11 +165,15 @@ struct SketchPicture {
 bool fitsASheet(const SketchPicture& picture);
 
 /// The figure for Python: the members above under their names, colours as "#rrggbb", points as
-/// [x, y, z], what is not finite as null; `kind`: charts, bars, map or sketch; and `description`, a
-/// text for those who cannot see it.
+/// [x, y, z], numbers in the units of the axes, what is not finite as null; `kind`: charts, bars,
+/// map or sketch; and `description`, a text for those who cannot see it.
 Json figureJson(const Figure& figure);
 Json figureJson(const BarChart& chart);
 Json figureJson(const ResponseMap& map);
 Json figureJson(const SketchPicture& picture);
+
+/// The members of the sketch under their names, points as [x, y, z], roles by their names; what is
+/// not finite is null.
+Json sketchJson(const Sketch& sketch);
 
 }  // namespace whirl_twin

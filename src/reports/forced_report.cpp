@@ -60,7 +60,7 @@ ForcedReport forcedReport(const RotorSystem& system, const ForcedRequest& reques
         fmt::format("--points: expected from 2 to {}, found {}", kMaxSweepPoints, request.points));
   }
   for (const std::string& name : request.at) {
-    r.stations.push_back(system.stationNamed("--at", name));
+    r.stations.push_back(system.placeNamed("--at", name));
   }
   if (r.stations.empty()) {
     r.stations = {force};
@@ -80,8 +80,8 @@ ForcedReport forcedReport(const RotorSystem& system, const ForcedRequest& reques
         fmt::format("--from, --to: --from must be < --to, found {:g} and {:g} rad/s", from, to));
   }
   const FullOrderModel full = fullOrderModel(system, force);
-  const Station& place = full.stations[force];
-  r.sweep = forcedResponse(full.rotor, full.stations, r.speed,
+  const Station& place = full.places[force];
+  r.sweep = forcedResponse(full.rotor, full.places, r.speed,
                            request.along == "x" ? place.along_x : place.along_y,
                            frequenciesAround(modes, from, to, request.points));
   return r;
@@ -95,7 +95,7 @@ Json json(const ForcedReport& r) {
   json["frequencies"] =
       listJson(r.sweep, [](const ForcedResponse& response) { return response.frequency; });
   for (const std::size_t i : r.stations) {
-    Json& station = json["stations"][r.system->stations[i].name];
+    Json& station = json["stations"][r.system->places[i].name];
     for (const bool mobility : {false, true}) {
       for (const bool x : {true, false}) {
         station[mobility ? "mobility" : "receptance"][x ? "x" : "y"] =
@@ -116,7 +116,7 @@ CsvTables tables(const ForcedReport& r) {
   for (const std::size_t i : r.stations) {
     for (const ForcedResponse& response : r.sweep) {
       const Orbit& orbit = response.orbits[i];
-      sweep.rows.push_back({{"station", r.system->stations[i].name},
+      sweep.rows.push_back({{"station", r.system->places[i].name},
                             {"frequency", response.frequency},
                             {"receptance_x", std::abs(orbit.x)},
                             {"lag_x", 0.0 - std::arg(orbit.x)},
@@ -141,7 +141,7 @@ std::string text(const ForcedReport& r, const ShownUnits& u) {
     out += fmt::format(
         "  at {}, along {}: peaks\n"
         "{:>14} {:>11}  receptance, m/N  mobility, m/(N s) {:>11}\n",
-        r.system->stations[i].name, r.request.along, u.frequency.name, beside.name,
+        r.system->places[i].name, r.request.along, u.frequency.name, beside.name,
         "lag, " + u.angle.name);
     const std::vector<std::size_t> peaks = peaksOf(r, i);
     for (const std::size_t k : peaks) {
@@ -161,19 +161,18 @@ std::string text(const ForcedReport& r, const ShownUnits& u) {
                            u.frequency.name);
 }
 
-Figure figure(const ForcedReport& r) {
+Figure figure(const ForcedReport& r, const ShownUnits& u) {
   Chart receptance, mobility, phase;
-  receptance.x = mobility.x = phase.x = {"frequency of the force (rad/s)", false, true};
-  receptance.x.second = SecondScale{"Hz", 0.5 / kPi};
+  receptance.x = tightAxis("frequency of the force", u.frequency, u.besideFrequency());
+  mobility.x = phase.x = tightAxis("frequency of the force", u.frequency);
   receptance.y.label = "receptance (m/N)";
   mobility.y.label = "mobility (m/(N s))";
-  phase.y.label = "lag of the displacement (deg)";
+  phase.y = lagAxis("lag of the displacement", u.angle);
   receptance.y.logarithmic = mobility.y.logarithmic = true;
-  phase.y.degrees = true;
   const std::size_t shown = std::min(r.stations.size(), kMaxStationsDrawn);
   for (std::size_t s = 0; s < shown; ++s) {
     const std::size_t i = r.stations[s];
-    Series amplitude{r.system->stations[i].name, {}, {}};
+    Series amplitude{r.system->places[i].name, {}, {}};
     Series rate, lag;
     double before = kNaN;
     for (const ForcedResponse& response : r.sweep) {
@@ -200,8 +199,8 @@ Figure figure(const ForcedReport& r) {
     receptance.vertical.push_back({r.speed, "speed of the shaft"});
   }
   Figure figure;
-  figure.title = fmt::format("{}: force along {} at {}, shaft at {:.4g} rad/s", r.system->title(),
-                             r.request.along, r.request.force, r.speed);
+  figure.title = fmt::format("{}: force along {} at {}, shaft at {}", r.system->title(),
+                             r.request.along, r.request.force, u.speedText(r.speed));
   if (shown < r.stations.size()) {
     figure.title += fmt::format(", {} of {} stations", shown, r.stations.size());
   }

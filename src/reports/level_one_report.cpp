@@ -241,9 +241,9 @@ std::string text(const LevelOneReport& r, const ShownUnits& u) {
   return out + beyond + "  check the clause against the edition in force\n";
 }
 
-Figure figure(const LevelOneReport& r) {
+Figure figure(const LevelOneReport& r, const ShownUnits& u) {
   Chart chart;
-  chart.x = {fmt::format("cross-coupled stiffness at {} (N/m)", r.station), false, true};
+  chart.x = tightAxis("cross-coupled stiffness at " + r.station, u.stiffness);
   chart.y.label = "log. decrement, slowest decaying forward whirl";
   Series curve{"", {}, {}, Pen{ink::kBlue, 2.2}};
   for (const CrossCouplingRow& row : r.rows) {
@@ -260,8 +260,8 @@ Figure figure(const LevelOneReport& r) {
     chart.vertical.push_back({*r.margin, "Q_0"});
   }
   Figure figure;
-  figure.title = fmt::format("{}: stability level I at {:.4g} rad/s{}", r.system->title(), r.speed,
-                             beyondMark(r.system->tables(), r.speed));
+  figure.title = fmt::format("{}: stability level I at {}{}", r.system->title(),
+                             u.speedText(r.speed), beyondMark(r.system->tables(), r.speed));
   figure.charts = {chart};
   figure.width = 860;
   figure.chart_height = 420;

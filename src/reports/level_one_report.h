@@ -48,6 +48,6 @@ Json json(const LevelOneReport& report);
 std::string text(const LevelOneReport& report, const ShownUnits& units = {});
 /// The decrement over the cross-coupling; the stages.
 CsvTables tables(const LevelOneReport& report);
-Figure figure(const LevelOneReport& report);
+Figure figure(const LevelOneReport& report, const ShownUnits& units = {});
 
 }  // namespace whirl_twin

@@ -7,6 +7,7 @@
 
 #include "analysis/sampled_margins.h"
 #include "analysis/sampled_stability.h"
+#include "controllers/controller.h"
 #include "reports/figure.h"
 #include "reports/output.h"
 #include "scene/scene.h"
@@ -21,6 +22,9 @@ struct LoopedController {
   /// Inputs and outputs at the closed-loop equilibrium, about which it is linearized. Empty: there
   /// is none, and it is linearized about the equilibria nearest to the start.
   std::vector<double> held_measured, held_outputs;
+  /// From what it measures to its outputs, at the shaft speed; nothing where it is not linear.
+  std::optional<DiscreteStateSpace> law;
+  std::vector<Controller::Gain> gains;
   /// Nothing where a control law of the loop is not linear.
   std::optional<SampledStability> stability;
   double period = 0.0;  ///< [s], that the spectral radius is of: of a sample, or, of several

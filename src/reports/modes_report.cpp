@@ -124,7 +124,7 @@ void addModesNotes(ModesReport& report) {
 constexpr double kHeight = 0.9;  // of the largest orbit, the rotor behind it
 constexpr double kPale = 0.6;
 
-Chart shapeChart(const ModesReport& r, std::size_t place) {
+Chart shapeChart(const ModesReport& r, std::size_t place, const ShownUnits& u) {
   const WhirlMode& mode = r.model[place];
   OrbitChart drawn = orbitChart(mode.orbits, r.system->stations, "of the largest orbit",
                                 DrawnInstant::kWidestHighest);
@@ -138,9 +138,17 @@ Chart shapeChart(const ModesReport& r, std::size_t place) {
       series.name.clear();  // one legend, in words, for all
     }
   }
-  chart.title = fmt::format("{}: {}, {:.4g} rad/s ({:.0f} rpm), log. decrement {:.3g}", place + 1,
-                            name(mode.whirl), mode.dampedFrequency(), mode.dampedFrequency() / kRpm,
-                            mode.logDecrement());
+  if (!drawn.along_shaft) {
+    chart.series.back().name = "at one instant";  // a mode has no phase
+    if (chart.series.size() == 2) {
+      chart.series.front().pen =
+          Pen{mode.whirl == Whirl::kBackward ? ink::kVermilion : ink::kBlue, 2.2};
+    }
+  }
+  const double frequency = mode.dampedFrequency();
+  chart.title = fmt::format("{}: {}, {} ({}), log. decrement {:.3g}", place + 1, name(mode.whirl),
+                            u.frequency.shortText(frequency),
+                            u.frequency.beside().shortText(frequency), mode.logDecrement());
   return chart;
 }
 
@@ -238,13 +246,13 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
   return report;
 }
 
-Figure figure(const ModesReport& r, std::size_t count) {
+Figure figure(const ModesReport& r, std::size_t count, const ShownUnits& u) {
   Figure figure;
-  figure.title = fmt::format(
-      "{}: whirl modes at {:.4g} rad/s, {:.0f} rpm (blue forward, red backward){}",
-      r.system->title(), r.speed, r.speed / kRpm, beyondMark(r.system->tables(), r.speed));
+  figure.title =
+      fmt::format("{}: whirl modes at {} (blue forward, orange backward){}", r.system->title(),
+                  u.speedText(r.speed), beyondMark(r.system->tables(), r.speed));
   for (std::size_t k = 0; k < std::min(count, r.model.size()); ++k) {
-    figure.charts.push_back(shapeChart(r, k));
+    figure.charts.push_back(shapeChart(r, k, u));
   }
   const bool along = r.system->shaft.has_value();
   figure.columns = figure.charts.size() > 1 ? 2 : 1;

@@ -59,6 +59,6 @@ std::string text(const ModesReport& report, const ShownUnits& units = {});
 /// The model's modes and their shapes, or those that were measured with the model's beside them.
 CsvTables tables(const ModesReport& report);
 /// The shapes of the `count` lowest modes of the model, in front of the shaft.
-Figure figure(const ModesReport& report, std::size_t count);
+Figure figure(const ModesReport& report, std::size_t count, const ShownUnits& units = {});
 
 }  // namespace whirl_twin

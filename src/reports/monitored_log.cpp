@@ -330,8 +330,11 @@ class Replay {
       same->cleared = event.time;
       same->cleared_at = wallTimeText();
       same->why_cleared = event.text;
-    } else if (event.severity > same->worst.severity) {
-      same->worst = event;
+    } else {
+      if (std::isnan(same->latched) || !event.latched) {
+        same->latched = event.latched ? event.time : std::numeric_limits<double>::quiet_NaN();
+      }
+      same->worst = event.severity > same->worst.severity ? event : same->worst;
     }
   }
 

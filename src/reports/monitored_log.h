@@ -25,9 +25,11 @@ namespace whirl_twin {
 struct AlertCourse {
   state::Alert worst;
   double raised = 0.0;                                        ///< [s], simulated
-  double cleared = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: it stood at the end
+  double cleared = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: active at the end
   std::string why_cleared;
   std::string raised_at, cleared_at;  ///< ISO 8601, of a log that was recorded live; else ""
+  /// [s], since when its cause had gone and it was latched; NaN: not so.
+  double latched = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// For how long what came from a system could not be judged.

@@ -6,6 +6,7 @@
 #include "algebra/constants.h"
 #include "reports/monitored_log.h"
 #include "reports/report_page.h"
+#include "reports/report_values.h"
 #include "reports/spectrum_figures.h"
 
 namespace whirl_twin {
@@ -22,24 +23,33 @@ const char* className(state::Severity severity) {
                                                  : "info";
 }
 
-/// The ground behind the curves while an alert stands; each severity named once.
+/// The ground behind the curves while an alert is active, paler while it is only latched; each
+/// kind named once.
 std::vector<Band> bandsOf(const MonitoredLog& run, const SystemCourse& system) {
   std::vector<Band> bands;
-  for (const bool danger : {false, true}) {
-    bool named = false;
-    for (const AlertCourse& alert : run.alerts) {
-      if (alert.worst.system != system.name ||
-          (alert.worst.severity == state::Severity::kDanger) != danger) {
-        continue;
-      }
-      const double cleared = std::isnan(alert.cleared) ? run.end : alert.cleared;
-      if (cleared > alert.raised) {  // else simulated time was set back
-        bands.push_back({named    ? ""
-                         : danger ? "danger"
-                                  : "warning",
-                         alert.raised, cleared,
-                         paler(danger ? ink::kVermilion : ink::kOrange, danger ? 0.6 : 0.75)});
-        named = true;
+  std::vector<std::string> named;
+  const auto add = [&](const std::string& name, double from, double to, const Ink& ink) {
+    if (to > from) {  // else simulated time was set back
+      const bool known = std::find(named.begin(), named.end(), name) != named.end();
+      bands.push_back({known ? "" : name, from, to, ink});
+      named.push_back(name);
+    }
+  };
+  for (const bool latched : {true, false}) {  // what is active is in front
+    for (const bool danger : {false, true}) {
+      for (const AlertCourse& alert : run.alerts) {
+        if (alert.worst.system != system.name ||
+            (alert.worst.severity == state::Severity::kDanger) != danger) {
+          continue;
+        }
+        const double cleared = std::isnan(alert.cleared) ? run.end : alert.cleared;
+        const double gone = std::isnan(alert.latched) ? cleared : alert.latched;
+        if (latched) {
+          add("latched, cause gone", gone, cleared, paler(ink::kGrey, 0.85));
+        } else {
+          add(danger ? "danger" : "warning", alert.raised, gone,
+              paler(danger ? ink::kVermilion : ink::kOrange, danger ? 0.6 : 0.75));
+        }
       }
     }
   }
@@ -124,8 +134,8 @@ Chart orbitOfLastTurns(const SystemCourse& system) {
   chart.x.label = "x (m), without its mean";
   chart.y.label = "y (m), without its mean";
   chart.equal_aspect = true;
-  Series path{"", {}, {}, Pen{ink::kBlue, 1.2}};
-  Series marks{"", {}, {}, Pen{ink::kBlack, 1.2}, false, Marks::kDots};
+  Series path{"orbit", {}, {}, Pen{ink::kBlue, 1.2}};
+  Series marks{"phase mark passes x", {}, {}, Pen{ink::kBlack, 1.2}, false, Marks::kDots};
   double before = system.orbit.front().shaft_angle;
   for (const state::WhirlState& whirl : system.orbit) {
     path.x.push_back(whirl.x);
@@ -174,11 +184,9 @@ Figure bode(const OrderCourse& orders) {
   figure.chart_height = 300;
   figure.columns = 2;
   Chart amplitude, lag, polar;
-  amplitude.x = lag.x = {"speed of the shaft (rad/s)", false, true};
+  amplitude.x = lag.x = tightAxis("speed of the shaft", {"rad/s"}, {"rpm", kRpm});
   amplitude.y = {"amplitude (m)", false, false};
-  lag.y.label = "lag behind the phase mark (deg)";
-  lag.y.degrees = true;
-  lag.y.inverted = true;
+  lag.y = lagAxis("lag behind the phase mark", ShownUnits{}.angle);
   amplitude.series = {{"", orders.speed, orders.amplitude}};
   lag.series = {{"", orders.speed, inDegrees(orders.lag)}};
   Series turned;
@@ -218,6 +226,7 @@ Figure figure(const MonitoredLog& run, const SystemCourse& system) {
   add("speed of the shaft (rad/s)", system.time, system.speed);
   if (!figure.charts.empty()) {
     figure.charts.front().vertical = namesOfAlerts(run, system);
+    figure.charts.front().y.second = SecondScale{"rpm", 1.0 / kRpm};
   }
   if (any(system.vibration)) {
     add("vibration about the mean (m, 0-peak)", system.time, system.vibration);

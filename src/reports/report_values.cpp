@@ -25,6 +25,26 @@ bool areFilms(const DataSpeeds& tables) {
 
 }  // namespace
 
+ChartAxis tightAxis(const std::string& quantity, const ShownUnit& unit) {
+  ChartAxis axis{unit.label(quantity), false, true};
+  axis.unit = unit.size;
+  return axis;
+}
+
+ChartAxis tightAxis(const std::string& quantity, const ShownUnit& unit, const ShownUnit& beside) {
+  ChartAxis axis = tightAxis(quantity, unit);
+  axis.second = SecondScale{beside.name, unit.size / beside.size};
+  return axis;
+}
+
+ChartAxis lagAxis(const std::string& quantity, const ShownUnit& angle) {
+  ChartAxis axis{angle.label(quantity)};
+  axis.unit = angle.size / kDegree;
+  axis.degrees = angle.size == kDegree;
+  axis.inverted = true;
+  return axis;
+}
+
 Json complexJson(const std::complex<double>& z) {
   return {z.real(), z.imag()};
 }

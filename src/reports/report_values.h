@@ -14,6 +14,7 @@
 #include "mechanics/rotors/rotor_assembly.h"
 #include "reports/figure.h"
 #include "reports/output.h"
+#include "reports/shown_units.h"
 
 namespace whirl_twin {
 
@@ -48,6 +49,12 @@ Json arrayJson(const std::vector<double>& x);
 Json arrayJson(const Eigen::VectorXd& x);
 /// Row by row.
 Json matrixJson(const Eigen::MatrixXd& m);
+
+/// Of numbers in SI units, with ends where the data end; `beside`: as a second scale.
+ChartAxis tightAxis(const std::string& quantity, const ShownUnit& unit);
+ChartAxis tightAxis(const std::string& quantity, const ShownUnit& unit, const ShownUnit& beside);
+/// Of a lag in degrees: it falls, as machinists draw it.
+ChartAxis lagAxis(const std::string& quantity, const ShownUnit& angle);
 
 /// Behind a row of text: "" within the tables.
 std::string beyondMark(const DataSpeeds& tables, double speed);

@@ -56,7 +56,7 @@ std::vector<SynchronousResponse> smoothSweep(const ResponseReport& r, std::size_
     }
     const double between = 0.5 * (sweep[k].speed + sweep[k + 1].speed);
     sweep.insert(sweep.begin() + static_cast<std::ptrdiff_t>(k) + 1,
-                 synchronousResponse(r.system->rotor, r.system->stations, between));
+                 synchronousResponse(r.system->rotor, r.system->places, between));
   }
   return sweep;
 }
@@ -74,7 +74,7 @@ Series locus(const ResponseReport& r, const std::vector<SynchronousResponse>& sw
 
 /// Speeds along the locus, at equal distances on it, and which way it is run through.
 void markSpeeds(const ResponseReport& r, const std::vector<SynchronousResponse>& sweep,
-                std::size_t station, Chart& polar) {
+                std::size_t station, const ShownUnit& unit, Chart& polar) {
   constexpr double kParts = 7.0;
   std::vector<double> way{0.0};
   for (std::size_t k = 0; k + 1 < sweep.size(); ++k) {
@@ -92,7 +92,7 @@ void markSpeeds(const ResponseReport& r, const std::vector<SynchronousResponse>&
     const std::complex<double> at = fromShaft(r, sweep[k], station);
     marks.x.push_back(at.real());
     marks.y.push_back(at.imag());
-    polar.notes.push_back({at.real(), at.imag(), fmt::format("{:.4g} rad/s", sweep[k].speed)});
+    polar.notes.push_back({at.real(), at.imag(), unit.shortText(sweep[k].speed)});
     next = way[k] + way.back() / kParts;
   }
   polar.series.push_back(marks);
@@ -145,14 +145,6 @@ void cutFaint(std::vector<Series>& all) {
   }
 }
 
-ChartAxis speedAxis() {
-  return {"shaft speed (rad/s)", false, true, SecondScale{"rpm", 1.0 / kRpm}};
-}
-
-std::string speedName(double speed) {
-  return fmt::format("{:.4g} rad/s, {:.0f} rpm", speed, speed / kRpm);
-}
-
 /// Degrees from -90 to 270, broken where it passes from one end to the other.
 Series lagSeries(const ResponseReport& r, std::size_t station) {
   Series series;
@@ -176,22 +168,22 @@ Series lagSeries(const ResponseReport& r, std::size_t station) {
 
 }  // namespace
 
-Figure figure(const ResponseReport& r) {
+Figure figure(const ResponseReport& r, const ShownUnits& u) {
   Chart amplitude, lag, polar;
-  amplitude.x = speedAxis();
-  amplitude.y.label = "semi-major axis (m)";
-  lag.x = {"shaft speed (rad/s)", false, true};
-  lag.y.label = "lag behind the phase mark (deg)";
-  lag.y.degrees = true;
-  lag.y.inverted = true;  // as machinists draw it
-  polar.x.label = "along the shaft's phase mark (m)";
-  polar.y.label = "ahead of the phase mark (m)";
+  amplitude.x = tightAxis("shaft speed", u.speed, u.besideSpeed());
+  const bool semi_axis = u.vibration.name == u.length.name;  // not peak to peak
+  amplitude.y = tightAxis(semi_axis ? "semi-major axis" : "along the major axis", u.vibration);
+  amplitude.y.tight = false;
+  lag.x = tightAxis("shaft speed", u.speed);
+  lag.y = lagAxis("lag behind the phase mark", u.angle);
+  polar.x = tightAxis("along the shaft's phase mark", u.vibration);
+  polar.y = tightAxis("ahead of the phase mark", u.vibration);
   polar.title = "forward whirl in the shaft's frame";
   polar.equal_aspect = true;
   const std::vector<std::size_t> shown = shownStations(r);
   for (const std::size_t i : shown) {
     Series major;
-    major.name = r.system->stations[i].name;
+    major.name = r.system->places[i].name;
     for (const SynchronousResponse& response : r.sweep) {
       major.x.push_back(response.speed);
       major.y.push_back(response.orbits[i].major());
@@ -204,9 +196,9 @@ Figure figure(const ResponseReport& r) {
     amplitude.y.logarithmic = true;
     cutFaint(amplitude.series);
   }
-  markSpeeds(r, smoothSweep(r, shown.front()), shown.front(), polar);
+  markSpeeds(r, smoothSweep(r, shown.front()), shown.front(), u.speed, polar);
   for (const CriticalSpeed& peak : r.peaks) {
-    amplitude.vertical.push_back({peak.speed, speedName(peak.speed)});
+    amplitude.vertical.push_back({peak.speed, u.speedText(peak.speed)});
     lag.vertical.push_back({peak.speed, ""});
   }
   shadeBeyond(r.system->tables(), r.sweep.front().speed, r.sweep.back().speed, true, amplitude);
@@ -223,11 +215,13 @@ Figure figure(const ResponseReport& r) {
   return figure;
 }
 
-Figure figure(const OrbitReport& r) {
-  const OrbitChart orbits =
-      orbitChart(r.response.orbits, r.system->stations, "m", DrawnInstant::kPhaseMark);
+Figure figure(const OrbitReport& r, const ShownUnits& u) {
+  OrbitChart orbits =
+      orbitChart(r.response.orbits, r.system->places, u.length.name, DrawnInstant::kPhaseMark);
+  orbits.plane.x.unit = orbits.plane.y.unit = orbits.chart.y.unit = u.length.size;
+  orbits.chart.x.unit = orbits.along_shaft ? 1.0 : u.length.size;
   Figure figure;
-  figure.title = fmt::format("{}: orbits at {}{}", r.system->title(), speedName(r.response.speed),
+  figure.title = fmt::format("{}: orbits at {}{}", r.system->title(), u.speedText(r.response.speed),
                              beyondMark(r.system->tables(), r.response.speed));
   figure.charts = {orbits.chart};
   if (orbits.along_shaft) {

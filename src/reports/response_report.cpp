@@ -85,12 +85,12 @@ ResponseReport responseReport(const RotorSystem& system, const SpeedRange& range
   ResponseReport r;
   r.system = &system;
   if (station) {
-    r.stations = {system.stationNamed("--station", *station)};
+    r.stations = {system.placeNamed("--station", *station)};
   } else {
-    r.stations.resize(system.stations.size());
+    r.stations.resize(system.places.size());
     std::iota(r.stations.begin(), r.stations.end(), 0);
   }
-  r.sweep = synchronousSweep(system.rotor, system.stations, range.from, range.to, range.points);
+  r.sweep = synchronousSweep(system.rotor, system.places, range.from, range.to, range.points);
   r.peaks = criticalSpeeds(*system.dynamics);
   r.peaks.erase(std::remove_if(r.peaks.begin(), r.peaks.end(),
                                [&](const CriticalSpeed& peak) {
@@ -114,7 +114,7 @@ Json json(const ResponseReport& r) {
             {"table_speeds", tableSpeedsJson(data)},  // null: every speed
             {"beyond_tables", beyondJson(data, speeds)}};
   for (const std::size_t i : r.stations) {
-    json["stations"][r.system->stations[i].name] =
+    json["stations"][r.system->places[i].name] =
         listJson(r.sweep, [&](const SynchronousResponse& response) {
           return orbitJson(response.orbits[i], phase_mark);
         });
@@ -134,7 +134,7 @@ CsvTables tables(const ResponseReport& r) {
   for (const std::size_t i : r.stations) {
     for (const SynchronousResponse& response : r.sweep) {
       sweep.rows.push_back(
-          orbitRow(*r.system, {{"station", r.system->stations[i].name}, {"speed", response.speed}},
+          orbitRow(*r.system, {{"station", r.system->places[i].name}, {"speed", response.speed}},
                    response.orbits[i], response.speed));
     }
   }
@@ -154,14 +154,14 @@ std::string text(const ResponseReport& r, const ShownUnits& u) {
                        r.sweep.size());
   }
   for (const std::size_t i : r.stations) {
-    out += fmt::format("  at {}\n{}", r.system->stations[i].name,
+    out += fmt::format("  at {}\n{}", r.system->places[i].name,
                        orbitHead("speed, " + u.speed.name, u));
     for (std::size_t k = 0; k < r.sweep.size(); k += stride) {
       out += orbitText(fmt::format("{:.6g}", u.speed.in(r.sweep[k].speed)), r.sweep[k].orbits[i],
                        r.system->dynamics->phaseMark(), u, beyondMark(data, r.sweep[k].speed));
     }
   }
-  out += fmt::format("  peaks at {}\n", r.system->stations.front().name);
+  out += fmt::format("  peaks at {}\n", r.system->places.front().name);
   for (const CriticalSpeed& peak : r.peaks) {
     out += fmt::format("    {:.6g} {}: {:.5g} {}, {}, amplification {}{}\n", u.speed.in(peak.speed),
                        u.speed.name, u.vibration.in(peak.peak), u.vibration.name,
@@ -177,7 +177,7 @@ OrbitReport orbitReport(const RotorSystem& system, double speed) {
   if (!(speed >= 0.0 && std::isfinite(speed))) {
     throw InputError(fmt::format("--speed: expected a shaft speed >= 0 rad/s, found {:g}", speed));
   }
-  return {&system, synchronousResponse(system.rotor, system.stations, speed)};
+  return {&system, synchronousResponse(system.rotor, system.places, speed)};
 }
 
 Json json(const OrbitReport& r) {
@@ -185,7 +185,7 @@ Json json(const OrbitReport& r) {
             {"speed", r.response.speed},
             {"beyond_tables", !r.system->tables().covers(r.response.speed)}};
   for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
-    const Station& station = r.system->stations[i];
+    const Station& station = r.system->places[i];
     json["stations"][station.name] =
         orbitJson(r.response.orbits[i], r.system->dynamics->phaseMark());
     json["stations"][station.name]["position"] = station.position;
@@ -196,7 +196,7 @@ Json json(const OrbitReport& r) {
 CsvTables tables(const OrbitReport& r) {
   CsvTable orbits{"", withOrbit({"station", "position"})};
   for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
-    const Station& station = r.system->stations[i];
+    const Station& station = r.system->places[i];
     orbits.rows.push_back(orbitRow(*r.system,
                                    {{"station", station.name}, {"position", station.position}},
                                    r.response.orbits[i], r.response.speed));
@@ -209,7 +209,7 @@ std::string text(const OrbitReport& r, const ShownUnits& u) {
       fmt::format("{}: orbits at {:g} {}\n{}", r.system->title(), u.speed.in(r.response.speed),
                   u.speed.name, orbitHead("station", u));
   for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
-    out += orbitText(r.system->stations[i].name, r.response.orbits[i],
+    out += orbitText(r.system->places[i].name, r.response.orbits[i],
                      r.system->dynamics->phaseMark(), u);
   }
   return out + beyondLine(r.system->tables(), r.response.speed, r.response.speed);

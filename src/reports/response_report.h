@@ -32,7 +32,7 @@ std::string text(const ResponseReport& report, const ShownUnits& units = {});
 /// Every speed of the sweep, at each station; peaks.
 CsvTables tables(const ResponseReport& report);
 /// Bode plot, amplitude and phase lag over speed, and polar plot below.
-Figure figure(const ResponseReport& report);
+Figure figure(const ResponseReport& report, const ShownUnits& units = {});
 
 struct OrbitReport {
   const RotorSystem* system = nullptr;
@@ -44,7 +44,7 @@ OrbitReport orbitReport(const RotorSystem& system, double speed);
 Json json(const OrbitReport& report);
 std::string text(const OrbitReport& report, const ShownUnits& units = {});
 CsvTables tables(const OrbitReport& report);
-Figure figure(const OrbitReport& report);
+Figure figure(const OrbitReport& report, const ShownUnits& units = {});
 
 struct ForcedRequest {
   std::string force;               ///< the station that it acts at
@@ -73,6 +73,6 @@ std::string text(const ForcedReport& report, const ShownUnits& units = {});
 /// Every frequency at each station.
 CsvTables tables(const ForcedReport& report);
 /// Receptance, mobility and phase along the force.
-Figure figure(const ForcedReport& report);
+Figure figure(const ForcedReport& report, const ShownUnits& units = {});
 
 }  // namespace whirl_twin

@@ -109,38 +109,6 @@ std::vector<double> passages(const PlotHistory& history, double speed) {
   return times;
 }
 
-/// With spots between those of a path that has few, on the cubics that go through them smoothly
-/// (Catmull and Rom, 1974).
-void smooth(Series& path) {
-  constexpr std::size_t kEnough = 90;
-  constexpr int kParts = 5;
-  const std::size_t count = path.x.size();
-  if (count < 4 || count > kEnough) {
-    return;
-  }
-  Series finer;
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    const std::size_t before = i == 0 ? 0 : i - 1;
-    const std::size_t after = std::min(i + 2, count - 1);
-    for (int k = 0; k < kParts; ++k) {
-      const double s = static_cast<double>(k) / kParts;
-      const auto between = [&](const std::vector<double>& y) {
-        const double from = 0.5 * (y[i + 1] - y[before]);
-        const double to = 0.5 * (y[after] - y[i]);
-        const double rise = y[i + 1] - y[i];
-        return y[i] +
-               s * (from + s * (3.0 * rise - 2.0 * from - to + s * (from + to - 2.0 * rise)));
-      };
-      finer.x.push_back(between(path.x));
-      finer.y.push_back(between(path.y));
-    }
-  }
-  finer.x.push_back(path.x.back());
-  finer.y.push_back(path.y.back());
-  path.x = finer.x;
-  path.y = finer.y;
-}
-
 /// The path during one turn of the shaft that starts at a sample.
 Series turn(const PlotHistory& history, const std::vector<double>& angle, std::size_t start) {
   Series series;
@@ -152,7 +120,6 @@ Series turn(const PlotHistory& history, const std::vector<double>& angle, std::s
       break;
     }
   }
-  smooth(series);
   return series;
 }
 
@@ -228,13 +195,14 @@ std::vector<Chart> rotorCharts(const PlotHistory& history) {
   std::vector<Chart> charts{historyChart(history, "whirl radius", "m", whirl.about.whirl_radius)};
   if (!whirl.aside.empty()) {
     charts.front().y.label = "whirl radius about its mean (m)";
-    // In a chart of its own: a sag is often a thousand times the whirl.
+    // In a separate chart: a sag is often a thousand times the whirl.
     charts.push_back(historyChart(history, "orbit's mean from the axis", "m", whirl.aside));
   }
   const std::vector<double> lag = phaseLagHistory(whirl.about);
   if (anyFinite(lag)) {
     charts.push_back(historyChart(history, "whirl phase lag", "deg", lag));
     charts.back().y.degrees = true;
+    charts.back().y.inverted = true;  // as machinists draw it
     charts.back().horizontal = {{90.0, ""}, {180.0, ""}};
   }
   charts.push_back(speedChart(history, "shaft speed", history.speed));

@@ -72,11 +72,14 @@ struct RecordedSource {
   }
 };
 
-std::vector<RecordedProbe> probesOf(const SensorSpec& sensor, std::size_t system) {
+/// At the rotor, not at its casing.
+std::vector<RecordedProbe> probesOf(const SensorSpec& sensor, std::size_t system,
+                                    std::size_t stations) {
   std::vector<RecordedProbe> probes;
   for (const SensorChannelSpec& channel : sensor.channels) {
     const SignalSpec& at = channel.signal;
-    if (at.kind == SignalSpec::Kind::kDisplacement && at.system == system) {
+    if (at.kind == SignalSpec::Kind::kDisplacement && at.system == system &&
+        at.station < stations) {
       probes.push_back(
           {channel.name, at.station, at.direction, 0.0, channel.sensor.delay,
            channel.sensor.bandwidth,
@@ -145,7 +148,7 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
   for (const SensorSpec& sensor : scene.scene.sensors) {
     if (sensor.keyphasor && sensor.drive == drive) {
       keyphasors[sensor.name] = *sensor.keyphasor;
-    } else if (!sensor.keyphasor && !probesOf(sensor, place).empty()) {
+    } else if (!sensor.keyphasor && !probesOf(sensor, place, system.stations.size()).empty()) {
       sources[sensor.name].spec = &sensor;
     }
   }
@@ -173,8 +176,9 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
   notes_ = log.remarks;
   const RecordedSource* best = nullptr;
   for (const auto& [name, source] : sources) {
-    if (source.samples > 1 && (best == nullptr || probesOf(*source.spec, place).size() >
-                                                      probesOf(*best->spec, place).size())) {
+    if (source.samples > 1 &&
+        (best == nullptr || probesOf(*source.spec, place, system.stations.size()).size() >
+                                probesOf(*best->spec, place, system.stations.size()).size())) {
       best = &source;
     }
   }
@@ -203,7 +207,7 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
   }
   for (const RecordedSource* source : used) {
     sources_.push_back({source->spec->name, {}, probes_.size()});
-    for (RecordedProbe& probe : probesOf(*source->spec, place)) {
+    for (RecordedProbe& probe : probesOf(*source->spec, place, system.stations.size())) {
       const auto said = source->deviation.find(probe.name);
       probe.deviation = said != source->deviation.end() && said->second > 0.0 ? said->second : 0.0;
       sources_.back().channels.push_back(probe.name);

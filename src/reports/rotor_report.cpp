@@ -31,10 +31,6 @@ std::string numberOrDash(double value) {
   return std::isfinite(value) ? fmt::format("{:.5g}", value) : "–";
 }
 
-std::string rpm(double speed) {
-  return fmt::format("{:.0f}", speed / kRpm);
-}
-
 /// Puts a rotor's parts on the page, one after the other, and remembers what is missing.
 class RotorReport {
  public:
@@ -42,6 +38,7 @@ class RotorReport {
       : scene_(scene),
         system_(system),
         request_(request),
+        u_(request.units),
         speed_(request.speed.value_or(system.highest_speed)),
         page_(fmt::format("{}, {}: rotor dynamics", scene.scene.name, system.name)) {}
 
@@ -85,6 +82,19 @@ class RotorReport {
                           [&](const SharedSystem& one) { return one->spec.name == system_.name; });
   }
 
+  /// "83.224 rad/s (795 rpm)"
+  std::string at(double speed) const {
+    return fmt::format("{:.5g} {} ({})", u_.speed.in(speed), u_.speed.name,
+                       u_.besideSpeed().shortText(speed));
+  }
+
+  /// Cells of a table: the speed in `unit`, and beside it.
+  std::vector<std::string> cells(double speed, const ShownUnit& unit) const {
+    const ShownUnit beside = unit.beside();
+    return {numberOrDash(unit.in(speed)),
+            fmt::format(beside.size == kRpm ? "{:.0f}" : "{:.5g}", beside.in(speed))};
+  }
+
   bool inRange(double speed) const {
     return speed >= (1.0 - kNear) * system_.lowest_speed &&
            speed <= (1.0 + kNear) * system_.highest_speed;
@@ -95,8 +105,7 @@ class RotorReport {
     std::vector<std::string> near;
     for (const CampbellCrossing& c : crossings) {
       if (inRange(c.speed)) {
-        near.push_back(
-            fmt::format("{:.5g} rad/s ({} rpm, {})", c.speed, rpm(c.speed), name(c.mode.whirl)));
+        near.push_back(fmt::format("{} {}", at(c.speed), name(c.mode.whirl)));
       }
     }
     page_.summary(fmt::format("Critical speeds within {:g} % of the running speeds: {}.",
@@ -106,20 +115,18 @@ class RotorReport {
 
   void start() {
     const double low = system_.lowest_speed, high = system_.highest_speed;
-    const std::string runs = low == high
-                                 ? fmt::format("running at {:.5g} rad/s ({} rpm)", high, rpm(high))
-                                 : fmt::format("running from {:.5g} to {:.5g} rad/s ({} to {} rpm)",
-                                               low, high, rpm(low), rpm(high));
+    const std::string runs = low == high ? "running at " + at(high)
+                                         : fmt::format("running from {} to {}", at(low), at(high));
     page_.text(fmt::format(
-        "{}, {}. Modes and stability at {:.5g} rad/s ({} rpm). SI units: m, kg, s, N, rad.",
-        system_.model, runs, speed_, rpm(speed_)));
+        "{}, {}. Modes and stability at {}. Units are SI (m, kg, s, N, rad) where none is given.",
+        system_.model, runs, at(speed_)));
     const std::string& note = built().setup().note;
     if (!note.empty()) {
       page_.text("Model of the simulation: " + note + ".");
     }
     const DataSpeeds data = system_.tables();
     if (!data.covers(speed_)) {
-      page_.text(fmt::format("{:.5g} rad/s is {}.", speed_, beyondText(data)));
+      page_.text(fmt::format("{} is {}.", at(speed_), beyondText(data)));
     }
     if (!data.everywhere()) {
       missing_.push_back("Results marked \"" + beyondName(data) + "\" or shaded are " +
@@ -149,9 +156,9 @@ class RotorReport {
       return;
     }
     page_.section("At rest under its weight");
-    page_.text(fmt::format("Weight {} N, g = {} m/s², the bearing coefficients at {:.5g} rad/s.",
+    page_.text(fmt::format("Weight {} N, g = {} m/s², the bearing coefficients at {}.",
                            numberOrDash(sheet->body.mass * sheet->gravity),
-                           numberOrDash(sheet->gravity), speed_));
+                           numberOrDash(sheet->gravity), at(speed_)));
     std::vector<std::vector<std::string>> loads;
     for (const BearingLoad& bearing : sheet->statics->bearings) {
       loads.push_back({std::to_string(bearing.node), numberOrDash(bearing.force.y + 0.0),
@@ -167,22 +174,22 @@ class RotorReport {
         "Undamped forward critical speeds, every bearing of one stiffness in all directions on "
         "rigid "
         "ground; and the rotor's actual bearings over the speed.");
-    page_.picture(figure(report));
-    std::vector<std::string> head{"stiffness, N/m"};
+    page_.picture(figure(report, u_));
+    std::vector<std::string> head{"stiffness, " + u_.stiffness.name};
     for (std::size_t mode = 0; mode < report.map.speeds.size(); ++mode) {
-      head.push_back(fmt::format("mode {}, rad/s", mode + 1));
+      head.push_back(fmt::format("mode {}, {}", mode + 1, u_.speed.name));
     }
     std::vector<std::vector<std::string>> rows;
     const std::size_t stride = std::max<std::size_t>(1, report.map.stiffness.size() / 10);
     for (std::size_t i = 0; i < report.map.stiffness.size(); i += stride) {
-      rows.push_back({numberOrDash(report.map.stiffness[i])});
+      rows.push_back({numberOrDash(u_.stiffness.in(report.map.stiffness[i]))});
       for (const std::vector<double>& mode : report.map.speeds) {
-        rows.back().push_back(numberOrDash(mode[i]));
+        rows.back().push_back(numberOrDash(u_.speed.in(mode[i])));
       }
     }
     rows.push_back({"rigid"});
     for (const double speed : report.map.rigid) {
-      rows.back().push_back(numberOrDash(speed));
+      rows.back().push_back(numberOrDash(u_.speed.in(speed)));
     }
     page_.table(head, rows);
     if (!report.left_out.empty()) {
@@ -204,18 +211,20 @@ class RotorReport {
     std::vector<std::vector<std::string>> rows;
     for (std::size_t k = 0; k < std::min(kMaxModes, report.model.size()); ++k) {
       const WhirlMode& mode = report.model[k];
-      rows.push_back({std::to_string(k + 1), name(mode.whirl), numberOrDash(mode.dampedFrequency()),
-                      rpm(mode.dampedFrequency()), numberOrDash(mode.dampingRatio()),
-                      numberOrDash(mode.logDecrement()),
+      const std::vector<std::string> frequency = cells(mode.dampedFrequency(), u_.frequency);
+      rows.push_back({std::to_string(k + 1), name(mode.whirl), frequency[0], frequency[1],
+                      numberOrDash(mode.dampingRatio()), numberOrDash(mode.logDecrement()),
                       mode.eigenvalue.real() > 0.0 ? "grows" : "decays"});
     }
-    page_.table({"mode", "whirl", "rad/s", "rpm", "damping ratio", "log. decrement", ""}, rows);
+    page_.table({"mode", "whirl", u_.frequency.name, u_.frequency.beside().name, "damping ratio",
+                 "log. decrement", ""},
+                rows);
     const auto growing =
         std::count_if(report.model.begin(), report.model.end(),
                       [](const WhirlMode& mode) { return mode.eigenvalue.real() > 0.0; });
-    page_.summary(fmt::format("Whirl modes at {:.5g} rad/s ({} rpm): {}.", speed_, rpm(speed_),
+    page_.summary(fmt::format("Whirl modes at {}: {}.", at(speed_),
                               growing == 0 ? "none grows" : fmt::format("{} grow", growing)));
-    page_.picture(figure(report, kModesDrawn));
+    page_.picture(figure(report, kModesDrawn, u_));
     if (report.model.size() > kMaxModes) {
       missing_.push_back(fmt::format("Whirl modes: {} are listed, of {} computed (`twin modes`)",
                                      kMaxModes, report.model.size()));
@@ -225,11 +234,12 @@ class RotorReport {
   void campbell() {
     const CampbellReport report =
         campbellReport(system_, SpeedRangeOptions{}.of(system_), {1.0}, kBranches);
-    page_.picture(figure(report));
+    page_.picture(figure(report, u_));
     summarizeCrossings(report.diagram.crossings);
     std::vector<std::vector<std::string>> rows;
     for (const CampbellCrossing& crossing : report.diagram.crossings) {
-      rows.push_back({numberOrDash(crossing.speed), rpm(crossing.speed), name(crossing.mode.whirl),
+      const std::vector<std::string> speed = cells(crossing.speed, u_.speed);
+      rows.push_back({speed[0], speed[1], name(crossing.mode.whirl),
                       numberOrDash(crossing.mode.log_decrement),
                       beyondMark(system_.tables(), crossing.speed)});
     }
@@ -237,20 +247,20 @@ class RotorReport {
       page_.text("No whirl crosses the speed line in the range.");
     } else {
       page_.part("Where a whirl crosses the speed line");
-      page_.table({"rad/s", "rpm", "whirl", "log. decrement", ""}, rows);
+      page_.table({u_.speed.name, u_.besideSpeed().name, "whirl", "log. decrement", ""}, rows);
     }
     if (report.beyond > 0) {
       missing_.push_back(
-          fmt::format("Campbell diagram: {} crossings and undamped critical speeds above {:.5g} "
-                      "rad/s, where the reduced-order rotor is not valid",
-                      report.beyond, system_.rotor.highest_speed));
+          fmt::format("Campbell diagram: {} crossings and undamped critical speeds above {}, where "
+                      "the reduced-order rotor is not valid",
+                      report.beyond, at(system_.rotor.highest_speed)));
     }
   }
 
   void response() {
     const ResponseReport report =
         responseReport(system_, SpeedRangeOptions{}.of(system_), std::nullopt);
-    page_.picture(figure(report));
+    page_.picture(figure(report, u_));
     std::vector<std::vector<std::string>> rows;
     std::size_t too_near = 0;
     for (const CriticalSpeed& peak : report.peaks) {
@@ -259,8 +269,9 @@ class RotorReport {
       const bool damped = !(peak.amplification_factor >= kCriticallyDampedAmplification);
       const bool near = margin.separation_margin < margin.required_separation_margin;
       too_near += !damped && near;
+      const std::vector<std::string> speed = cells(peak.speed, u_.speed);
       rows.push_back(
-          {numberOrDash(peak.speed), rpm(peak.speed), margin.direction, numberOrDash(peak.peak),
+          {speed[0], speed[1], margin.direction, numberOrDash(u_.vibration.in(peak.peak)),
            std::isinf(peak.amplification_factor) ? "undamped"
                                                  : numberOrDash(peak.amplification_factor),
            numberOrDash(margin.separation_margin), numberOrDash(margin.required_separation_margin),
@@ -269,15 +280,17 @@ class RotorReport {
                   : "met"});
       rows.back().back() += beyondMark(system_.tables(), peak.speed);
     }
-    page_.summary(fmt::format("Separation margins at {:.5g} rad/s: {}.", speed_,
+    page_.summary(fmt::format("Separation margins at {}: {}.", at(speed_),
                               too_near == 0 ? "met at every peak of the response"
                                             : fmt::format("too small at {} peaks", too_near)));
-    page_.part(fmt::format("Amplification factors and separation margins at {:.5g} rad/s", speed_));
+    page_.part(fmt::format("Amplification factors and separation margins at {}", at(speed_)));
     if (rows.empty()) {
       page_.text("The response has no peak in the range.");
     } else {
-      page_.table({"peak, rad/s", "rpm", "whirl", "semi-major axis, m", "AF", "margin, %",
-                   "required, %", ""},
+      page_.table({"peak, " + u_.speed.name, u_.besideSpeed().name, "whirl",
+                   (u_.vibration.name == u_.length.name ? "semi-major axis, " : "major axis, ") +
+                       u_.vibration.name,
+                   "AF", "margin, %", "required, %", ""},
                   rows);
     }
     page_.list(separationConditions());
@@ -288,15 +301,17 @@ class RotorReport {
     request.speed = speed_;
     request.stages = request_.stages;
     const LevelOneReport report = levelOneReport(system_, request);
-    page_.picture(figure(report));
+    page_.picture(figure(report, u_));
     std::vector<std::vector<std::string>> rows;
     rows.push_back(
         {"log. decrement without cross-coupling",
          report.rows.empty() ? "–" : numberOrDash(report.rows.front().mode.logDecrement())});
-    rows.push_back({"Q_0, where it ceases to decay, N/m",
-                    report.margin ? numberOrDash(*report.margin) : "none found"});
+    const ShownUnit& stiffness = u_.stiffness;
+    rows.push_back({"Q_0, where it ceases to decay, " + stiffness.name,
+                    report.margin ? numberOrDash(stiffness.in(*report.margin)) : "none found"});
     if (report.applied) {
-      rows.push_back({"Q_A, of all stages, N/m", numberOrDash(*report.applied)});
+      rows.push_back(
+          {"Q_A, of all stages, " + stiffness.name, numberOrDash(stiffness.in(*report.applied))});
       rows.push_back(
           {"log. decrement at Q_A",
            report.at_applied ? numberOrDash(report.at_applied->mode.logDecrement()) : "–"});
@@ -335,6 +350,7 @@ class RotorReport {
   const BuiltScene& scene_;
   const RotorSystem& system_;
   const RotorReportRequest& request_;
+  const ShownUnits& u_;
   double speed_;
   ReportPage page_;
   std::vector<std::string> missing_;

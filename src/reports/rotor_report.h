@@ -7,6 +7,7 @@
 #include "reports/level_one_report.h"
 #include "reports/report_page.h"
 #include "reports/rotor_systems.h"
+#include "reports/shown_units.h"
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
@@ -14,6 +15,7 @@ namespace whirl_twin {
 struct RotorReportRequest {
   std::optional<double> speed;  ///< [rad/s], of modes and stability; none: the drive's highest
   std::vector<Stage> stages;
+  ShownUnits units{};
 };
 
 /// The page. Its end lists the parts that are left out for the rotor, with the reason.

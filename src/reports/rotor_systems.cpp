@@ -57,16 +57,29 @@ double speedOption(const char* option, double speed) {
   return speed;
 }
 
-std::size_t RotorSystem::stationNamed(const char* option, const std::string& station) const {
+namespace {
+
+std::size_t indexOf(const char* option, const std::string& station,
+                    const std::vector<Station>& among, const std::string& title) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < stations.size(); ++i) {
-    names.push_back(stations[i].name);
+  for (std::size_t i = 0; i < among.size(); ++i) {
+    names.push_back(among[i].name);
     if (names.back() == station) {
       return i;
     }
   }
   throw InputError(
-      fmt::format("{}: no station '{}' on {}{}", option, station, title(), hint(station, names)));
+      fmt::format("{}: no station '{}' on {}{}", option, station, title, hint(station, names)));
+}
+
+}  // namespace
+
+std::size_t RotorSystem::stationNamed(const char* option, const std::string& station) const {
+  return indexOf(option, station, stations, title());
+}
+
+std::size_t RotorSystem::placeNamed(const char* option, const std::string& place) const {
+  return indexOf(option, place, places, title());
 }
 
 std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
@@ -82,7 +95,7 @@ std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
     }
     const auto [low, high] = scene.driveOf(system).speedRange();
     rotors.push_back({system.spec.name, system.spec.model, &dynamics, dynamics.linearRotor(),
-                      dynamics.stations(), std::max(0.0, low),
+                      dynamics.stations(), dynamics.places(), std::max(0.0, low),
                       std::max(std::fabs(low), std::fabs(high)), shaftOf(system)});
   }
   if (rotors.empty()) {
@@ -95,7 +108,7 @@ std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
 
 FullOrderModel fullOrderModel(const RotorSystem& system, std::optional<std::size_t> pushed) {
   if (!system.shaft) {
-    return {system.rotor, system.stations};
+    return {system.rotor, system.stations, system.places};
   }
   FlexibleShaft shaft = *system.shaft;
   for (int node = 0; pushed && node < shaft.nodes(); ++node) {
@@ -104,13 +117,16 @@ FullOrderModel fullOrderModel(const RotorSystem& system, std::optional<std::size
     }
   }
   const RotorAssembly assembly(shaft);
-  FullOrderModel full{assembly.linearRotor(), {}};
-  const std::vector<Station> nodes = assembly.stations();
-  for (const Station& station : system.stations) {
-    const auto same = std::find_if(nodes.begin(), nodes.end(),
-                                   [&](const Station& node) { return node.name == station.name; });
-    full.stations.push_back(*same);
+  FullOrderModel full{assembly.linearRotor(), {}, {}};
+  std::vector<Station> all = assembly.stations();
+  const std::vector<Station> pedestals = assembly.pedestals();
+  all.insert(all.end(), pedestals.begin(), pedestals.end());
+  for (const Station& place : system.places) {
+    full.places.push_back(*std::find_if(
+        all.begin(), all.end(), [&](const Station& one) { return one.name == place.name; }));
   }
+  full.stations.assign(full.places.begin(),
+                       full.places.begin() + static_cast<std::ptrdiff_t>(system.stations.size()));
   return full;
 }
 

@@ -21,7 +21,8 @@ struct RotorSystem {
   std::string name, model;
   const Dynamics* dynamics = nullptr;  ///< the scene's
   LinearRotor rotor;
-  std::vector<Station> stations;
+  std::vector<Station> stations;                   ///< of the shaft
+  std::vector<Station> places;                     ///< the same, then its casing
   double lowest_speed = 0.0, highest_speed = 0.0;  ///< [rad/s], that its drive runs through
   std::optional<FlexibleShaft> shaft;              ///< of a flexible_rotor, as its scene gives it
 
@@ -31,6 +32,8 @@ struct RotorSystem {
   std::string title() const { return name + " (" + model + ")"; }
   /// Of that name. Throws InputError, which names the option, with a hint.
   std::size_t stationNamed(const char* option, const std::string& station) const;
+  /// Likewise among `places`.
+  std::size_t placeNamed(const char* option, const std::string& place) const;
 };
 
 /// Of a flexible_rotor, as its scene gives it.
@@ -44,7 +47,7 @@ std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
 /// not caused by its unbalance.
 struct FullOrderModel {
   LinearRotor rotor;
-  std::vector<Station> stations;  ///< in the order of RotorSystem's
+  std::vector<Station> stations, places;  ///< in the order of RotorSystem's
 };
 /// `pushed`: the station that another force acts on, whose motion then is not condensed where it
 /// has no mass.

@@ -12,11 +12,10 @@
 #include <string>
 #include <utility>
 
-#include "algebra/constants.h"
 #include "messages/csv_cell.h"
 #include "messages/input_error.h"
 #include "reports/output.h"
-#include "scene/control_parts.h"
+#include "reports/sampled_signals.h"
 #include "twin/ensemble.h"
 
 namespace whirl_twin {
@@ -25,20 +24,14 @@ namespace {
 
 class TableWriter final : public SampleWriter {
  public:
-  TableWriter(const Twin& twin, std::vector<std::size_t> systems, const std::string& path)
-      : twin_(twin), systems_(std::move(systems)), name_(path.empty() ? "standard output" : path) {
+  TableWriter(const Twin& twin, const std::vector<std::size_t>& systems, const std::string& path)
+      : signals_(twin, systems, SampledSignals::Energy::kNo),
+        name_(path.empty() ? "standard output" : path) {
     if (!path.empty()) {
       pending_.emplace(path);
       file_ = std::fopen(pending_->path().c_str(), "wb");
       if (file_ == nullptr) {
         fail();
-      }
-    }
-    for (std::size_t i = 0; i < twin.scene().controllers.size(); ++i) {
-      if (std::any_of(systems_.begin(), systems_.end(), [&](std::size_t system) {
-            return involves(twin.scene().controllers[i], system);
-          })) {
-        controllers_.push_back(i);
       }
     }
     put(header());
@@ -53,26 +46,7 @@ class TableWriter final : public SampleWriter {
 
   void write(const Observer& observer) override {
     row_.clear();
-    append(twin_.seconds(observer.step()));
-    for (const std::size_t i : systems_) {
-      const bool running = observer.status(i) == StepStatus::kOk;
-      const std::size_t n = twin_.systems()[i]->spec.q.size();
-      for (std::size_t k = 0; k < n; ++k) {
-        append(running ? observer.coordinates(i)[k] : kNaN);
-      }
-      for (std::size_t k = 0; k < n; ++k) {
-        append(running ? observer.rates(i)[k] : kNaN);
-      }
-      if (observer.isRotor(i)) {
-        append(running ? observer.whirlRadius(i) : kNaN);
-        append(running ? observer.whirlPhase(i) : kNaN);
-      }
-    }
-    for (const std::size_t i : controllers_) {
-      for (const double output : observer.controller(i).output) {
-        append(output);
-      }
-    }
+    signals_.eachOf(observer, [this](double value) { append(value); });
     row_.back() = '\n';
     put(row_);
   }
@@ -91,23 +65,9 @@ class TableWriter final : public SampleWriter {
 
  private:
   std::string header() const {
-    std::string text = "time";
-    for (const std::size_t i : systems_) {
-      const BuiltSystem& system = *twin_.systems()[i];
-      for (const char* suffix : {"", "_rate"}) {
-        for (const CoordinateInfo& c : system.dynamics->coordinates()) {
-          text += fmt::format(",{}.{}{}", system.spec.name, c.name, suffix);
-        }
-      }
-      if (system.dynamics->isRotor()) {
-        text += fmt::format(",{0}.whirl_radius,{0}.whirl_phase", system.spec.name);
-      }
-    }
-    for (const std::size_t i : controllers_) {
-      const ControllerSpec& controller = twin_.scene().controllers[i];
-      for (const std::string& input : controller.acted_on) {
-        text += fmt::format(",{}.{}", controller.name, input);
-      }
+    std::string text;
+    for (const SignalName& signal : signals_.names()) {
+      text += (text.empty() ? "" : ",") + signal.name;
     }
     return text + "\n";
   }
@@ -131,9 +91,7 @@ class TableWriter final : public SampleWriter {
     throw RunFailure(fmt::format("{}: cannot be written: {}", name_, std::strerror(errno)));
   }
 
-  const Twin& twin_;
-  std::vector<std::size_t> systems_;
-  std::vector<std::size_t> controllers_;  // that have to do with them
+  SampledSignals signals_;
   std::string name_;
   std::optional<PendingFile> pending_;
   std::FILE* file_ = stdout;
@@ -142,9 +100,10 @@ class TableWriter final : public SampleWriter {
 
 }  // namespace
 
-std::unique_ptr<SampleWriter> makeTableWriter(const Twin& twin, std::vector<std::size_t> systems,
+std::unique_ptr<SampleWriter> makeTableWriter(const Twin& twin,
+                                              const std::vector<std::size_t>& systems,
                                               const std::string& path) {
-  return std::make_unique<TableWriter>(twin, std::move(systems), path);
+  return std::make_unique<TableWriter>(twin, systems, path);
 }
 
 void writeMembers(const Twin& twin, const std::vector<std::size_t>& systems,

@@ -35,11 +35,10 @@ class SampleWriter {
 // All throw RunFailure when they cannot write. `systems`: which ones of the
 // twin's; the twin outlives the writer.
 
-/// Comma-separated values, 17 significant digits: time, then for each system its coordinates, its
-/// rates and, for a rotor, whirl radius [m] and unwrapped phase [rad]; then what their controllers
-/// act with, CONTROLLER.SYSTEM.INPUT. A system that has stopped is nan. An empty path means
-/// standard output.
-std::unique_ptr<SampleWriter> makeTableWriter(const Twin& twin, std::vector<std::size_t> systems,
+/// Comma-separated values, 17 significant digits: SampledSignals without energies. A system that
+/// has stopped is nan. An empty path means standard output.
+std::unique_ptr<SampleWriter> makeTableWriter(const Twin& twin,
+                                              const std::vector<std::size_t>& systems,
                                               const std::string& path);
 
 /// The messages the simulation node publishes, of the systems and their drives, after the scene: an

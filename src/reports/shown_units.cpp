@@ -62,8 +62,21 @@ std::filesystem::path fileOfUser() {
 
 }  // namespace
 
+std::string ShownUnit::shortText(double si) const {
+  return size == kRpm ? fmt::format("{:.0f} {}", in(si), name)
+                      : fmt::format("{:.4g} {}", in(si), name);
+}
+
+ShownUnit ShownUnit::beside() const {
+  return size == 1.0 ? ShownUnit{"rpm", kRpm} : ShownUnit{"rad/s"};
+}
+
+std::string ShownUnits::speedText(double of) const {
+  return fmt::format("{}, {}", speed.shortText(of), besideSpeed().shortText(of));
+}
+
 ShownUnit ShownUnits::besideSpeed() const {
-  return speed.size == 1.0 ? ShownUnit{"rpm", kRpm} : ShownUnit{"rad/s"};
+  return speed.beside();
 }
 ShownUnit ShownUnits::besideFrequency() const {
   return frequency.size == 1.0 ? ShownUnit{"Hz", kTwoPi} : ShownUnit{"rad/s"};

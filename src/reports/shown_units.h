@@ -1,5 +1,5 @@
-// Units of the numbers in the text of a report, by choice of the user. JSON, CSV and figures are in
-// SI units.
+// Units of the numbers in the text and the figures of a report, by choice of the user. JSON and CSV
+// are in SI units.
 #pragma once
 
 #include <optional>
@@ -14,6 +14,12 @@ struct ShownUnit {
   double size = 1.0;  ///< in the SI
 
   double in(double si) const { return si / size; }
+  /// Of an axis: "shaft speed (rpm)".
+  std::string label(const std::string& quantity) const { return quantity + " (" + name + ")"; }
+  /// "83.2 rad/s", "794 rpm": as a figure has it.
+  std::string shortText(double si) const;
+  /// Of an angular speed, beside it: rpm, or rad/s if rpm or another one is shown already.
+  ShownUnit beside() const;
 };
 
 struct ShownUnits {
@@ -24,9 +30,12 @@ struct ShownUnits {
   ShownUnit stiffness{"N/m"};
   ShownUnit angle{"deg", kDegree};
 
-  /// For a column beside the speed or the frequency: rpm or Hz, and rad/s if that is shown already.
+  /// For a column beside the speed or the frequency: rpm or Hz, or rad/s if another one than rad/s
+  /// is shown already.
   ShownUnit besideSpeed() const;
   ShownUnit besideFrequency() const;
+  /// "83.2 rad/s, 794 rpm"
+  std::string speedText(double speed) const;
 };
 
 /// Of a list: "rpm, mil pp, deg". The first unit of an angular speed is that of shafts, and of

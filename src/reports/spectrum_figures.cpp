@@ -184,8 +184,8 @@ std::string subsynchronousText(const std::vector<WindowSpectrum>& spectra) {
 
 Chart spectrumChart(const WindowSpectrum& spectrum) {
   Chart chart;
-  chart.title = fmt::format("full spectrum, t = {:.4g} to {:.4g} s, shaft at {:.4g} rad/s",
-                            spectrum.begin, spectrum.end, spectrum.speed);
+  chart.title = fmt::format("full spectrum, t = {:.4g} to {:.4g} s, shaft at {}", spectrum.begin,
+                            spectrum.end, ShownUnits{}.speedText(spectrum.speed));
   chart.x = {"backward          frequency (rad/s)          forward", false, true};
   chart.y = {"amplitude (m)", true, true};
   const double reach = reachOf({&spectrum});
@@ -232,6 +232,9 @@ Chart cascadeChart(const std::vector<WindowSpectrum>& spectra) {
       1.0e6 * highest);
   chart.x = {"backward          frequency (rad/s)          forward", false, true};
   chart.y = {cascade.over_speed ? "speed of the shaft (rad/s)" : "time (s)", false, true};
+  if (cascade.over_speed) {
+    chart.y.second = SecondScale{"rpm", 1.0 / kRpm};
+  }
   // From the front backwards: what stands behind something higher is hidden.
   std::vector<double> horizon(kColumns, -kInfinity);
   for (std::size_t i = 0; i < columns.size(); ++i) {

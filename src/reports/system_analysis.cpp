@@ -56,8 +56,9 @@ std::string doubtAbout(const SystemAnalysis& a) {
   if (a.reduced_stability.routh.verdict != Verdict::kUncertain) {
     return "";
   }
-  if (!a.at_equilibrium && isJudgedOnlyAtRest(*a.dynamics)) {
-    return "no equilibrium was found at this speed";
+  if (!a.at_equilibrium && !a.dynamics->linear()) {
+    return a.dynamics->hasShaft() ? "no equilibrium was found at this speed"
+                                  : "no equilibrium or steady motion was found";
   }
   if (a.dynamics->linear() && a.equilibria.empty()) {
     return "there is no equilibrium: a constant load acts along a coordinate without stiffness";
@@ -124,7 +125,7 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
     }
   }
   a.sheet = rotorSheet(system, shaft.speed);
-  if (a.at_equilibrium || !isJudgedOnlyAtRest(dynamics)) {
+  if (a.at_equilibrium || dynamics.linear()) {
     a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
   } else {
     a.stability = a.reduced_stability = unjudged();
@@ -146,8 +147,7 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
   a.cross_coupling = crossCouplingMarginOf(dynamics, shaft.speed);
   a.steady_speeds = steadySpeedsOf(system);
   // An equilibrium that is unstable has no stability to lose.
-  const bool holds =
-      a.at_equilibrium && (!isJudgedOnlyAtRest(dynamics) || a.reduced_stability.bounded());
+  const bool holds = a.at_equilibrium && (dynamics.linear() || a.reduced_stability.bounded());
   if (holds && (search == ParameterSearch::kOfAll || isQuickToSearch(system))) {
     a.parameter_margins = parameterMargins(system, {a.about, a.about_v}, shaft.speed);
     a.decrement_amplitude = linearDampingLimit(dynamics, {a.about, a.about_v}, shaft.speed);

@@ -143,10 +143,18 @@ std::string equilibriaText(const SystemAnalysis& a, const ShownUnits& u) {
                     : "    none found\n");
 }
 
+/// Else there is no motion that modes and stability could be those of.
+bool isJudged(const SystemAnalysis& a) {
+  return a.at_equilibrium || a.dynamics->linear();
+}
+
 std::string modesText(const SystemAnalysis& a, const ShownUnits& u) {
   const ShownUnit beside = u.besideFrequency();
   const Stability& s = a.reduced_stability;
   const std::size_t count = s.natural_frequencies.size();
+  if (!isJudged(a)) {
+    return "";
+  }
   const bool few = a.coordinates.size() <= kFewCoordinates;
   const std::size_t shown = few || s.omitted > 0 ? count : std::min(count, kLowestModes);
   std::string out = fmt::format("  modes {:>15} {:>11}   damping ratio   log decrement\n",
@@ -191,7 +199,7 @@ std::string decrementText(const SystemAnalysis& a) {
 
 std::string stabilityText(const SystemAnalysis& a, const ShownUnits& u) {
   const Stability& s = a.reduced_stability;
-  if (!a.at_equilibrium && isJudgedOnlyAtRest(*a.dynamics)) {
+  if (!isJudged(a)) {
     return fmt::format("  stability: uncertain: {}\n", a.uncertain_because);
   }
   std::string out = a.uncertain_because.empty()

@@ -53,7 +53,8 @@ Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const Shown
 template <class Make>
 Document rotorDocument(const std::shared_ptr<const SceneRotors>& of, const ShownUnits& units,
                        const Make& make) {
-  return rotorDocument(of, units, make, [](const auto& report) { return figure(report); });
+  return rotorDocument(of, units, make,
+                       [units](const auto& report) { return figure(report, units); });
 }
 
 void requireNumbers(const CampbellReportRequest& request) {
@@ -144,9 +145,9 @@ Document modesDocument(const Scene& scene, const ModesRequest& request, const Sh
                              request.speed, request.limit)
                : modesReport(rotor, request.speed.value_or(rotor.highest_speed));
   };
-  Document document = rotorDocument(of, units, report,
-                                    [count = static_cast<std::size_t>(request.modes)](
-                                        const ModesReport& modes) { return figure(modes, count); });
+  const auto count = static_cast<std::size_t>(request.modes);
+  Document document = rotorDocument(
+      of, units, report, [=](const ModesReport& modes) { return figure(modes, count, units); });
   if (request.measured) {  // the shapes drawn are those of the model
     document.drawings.clear();
   }

@@ -122,6 +122,9 @@ std::vector<SpeedBand> criticalBands(const Scene& scene, std::size_t drive,
   return bands;
 }
 
+namespace {
+
+/// Into Scene::drives[drive], from the node under `key`.
 void readAvoidance(const YAML::Node& node, const std::string& key, std::size_t drive, Scene& scene,
                    Diagnostics& diagnostics) {
   DriveSpec& spec = scene.drives[drive];
@@ -155,6 +158,18 @@ void readAvoidance(const YAML::Node& node, const std::string& key, std::size_t d
     spec.avoid.insert(spec.avoid.end(), found.begin(), found.end());
   }
   checkSpeeds(spec, key.substr(0, key.rfind('.')), scene.time, diagnostics);
+}
+
+}  // namespace
+
+void readAvoidedSpeeds(const MapReader& scene_map, Scene& scene, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < scene.drives.size(); ++i) {
+    const YAML::Node drive = scene_map.at("drives")[scene.drives[i].name];
+    if (drive.IsMap() && drive["avoid"]) {
+      readAvoidance(drive["avoid"], fmt::format("drives.{}.avoid", scene.drives[i].name), i, scene,
+                    diagnostics);
+    }
+  }
 }
 
 }  // namespace whirl_twin

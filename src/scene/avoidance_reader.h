@@ -24,9 +24,8 @@ std::vector<SpeedBand> criticalBands(const Scene& scene, std::size_t drive,
                                      std::optional<double> margin, const std::string& key,
                                      Diagnostics& diagnostics);
 
-/// Reads the `avoid` of a drive under `key` into Scene::drives[drive], of a scene whose systems
-/// have been read. Adds a diagnostic for a drive with an initial or target speed inside a band.
-void readAvoidance(const YAML::Node& node, const std::string& key, std::size_t drive, Scene& scene,
-                   Diagnostics& diagnostics);
+/// Reads `avoid` of each of the scene's drives into Scene::drives, after its systems. Adds a
+/// diagnostic for a drive with an initial or target speed inside a band.
+void readAvoidedSpeeds(const MapReader& scene_map, Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace whirl_twin

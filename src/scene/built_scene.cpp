@@ -6,6 +6,7 @@
 #include "scene/control_parts.h"
 #include "scene/input_reader.h"
 #include "scene/model_context.h"
+#include "scene/signal_names.h"
 
 namespace whirl_twin {
 
@@ -77,6 +78,18 @@ BuiltScene build(const Scene& scene) {
     spec.setup = built.systems.back()->spec.setup;
   }
   return built;
+}
+
+BuiltScene::RotorNames BuiltScene::rotorNames() const {
+  RotorNames names;
+  for (const SharedSystem& system : systems) {
+    if (system->dynamics->isRotor()) {
+      names.rotors.push_back(system->spec.name);
+      const auto published = publishedStations(system->spec.name, *system->dynamics);
+      names.stations.insert(names.stations.end(), published.begin() + 1, published.end());
+    }
+  }
+  return names;
 }
 
 }  // namespace whirl_twin

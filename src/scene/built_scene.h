@@ -24,6 +24,12 @@ struct BuiltScene {
   /// The inputs of a system, at the start of the scene.
   Inputs inputsOf(const BuiltSystem& system) const;
   double startSeconds() const { return static_cast<double>(scene.time) / 1.0e9; }  ///< [s]
+
+  /// Names of the rotors, and those under which their further stations are published.
+  struct RotorNames {
+    std::vector<std::string> rotors, stations;
+  };
+  RotorNames rotorNames() const;
 };
 
 /// Uses the setups stored in the scene, and repeats only those whose specs were changed since.

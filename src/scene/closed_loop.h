@@ -21,8 +21,9 @@ class ClosedLoop {
   ClosedLoop(const Scene& scene, std::vector<std::size_t> controllers);
 
   const std::vector<std::size_t>& controllers() const { return controllers_; }
-  std::vector<std::size_t> systems() const;                ///< ascending
-  const ControllerSpec& controller(std::size_t i) const {  ///< i-th of controllers()
+  std::vector<std::size_t> systems() const;                         ///< ascending
+  const Controller& law(std::size_t i) const { return *laws_[i]; }  ///< of the i-th
+  const ControllerSpec& controller(std::size_t i) const {           ///< i-th of controllers()
     return scene_.controllers[controllers_[i]];
   }
   const std::string& nameOf(std::size_t system) const { return scene_.systems[system].name; }

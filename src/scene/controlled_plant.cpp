@@ -44,7 +44,7 @@ SignalRow rowOf(const SignalSpec& signal, const Dynamics& dynamics) {
     return {VectorXd::Unit(dynamics.dof(), static_cast<Index>(signal.coordinate)),
             signal.kind == SignalSpec::Kind::kRate};
   }
-  const Station station = dynamics.stations()[signal.station];
+  const Station station = dynamics.places()[signal.station];
   const double cosine = std::cos(signal.direction);  // the cosine of a right angle is rounding only
   return {(std::fabs(cosine) < 1.0e-16 ? 0.0 : cosine) * station.along_x +
               std::sin(signal.direction) * station.along_y,

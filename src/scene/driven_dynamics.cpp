@@ -106,6 +106,7 @@ class DrivenDynamics final : public Dynamics {
   }
   std::string singularMass() const override { return system_->singularMass(); }
   std::vector<Station> stations() const override { return system_->stations(); }
+  std::vector<Station> casing() const override { return system_->casing(); }
   Sketch sketch(const VectorXd& q, const EvaluationPoint<double>& at) const override {
     return system_->sketch(q, at);
   }

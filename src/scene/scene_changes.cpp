@@ -84,18 +84,26 @@ std::string keyOf(const std::vector<Part>& place) {
 
 class Changer {
  public:
-  Changer(YAML::Node& tree, const std::string& given) : tree_(tree), change_{given, {}} {}
+  /// `option`: in front of what is given, in errors.
+  Changer(YAML::Node& tree, const std::string& given, const char* option)
+      : tree_(tree), change_{given, {}}, option_(option) {}
 
+  /// Of "PATH=VALUE".
   SceneChange apply() {
     const std::size_t equals = change_.given.find('=');
     if (equals == std::string::npos) {
       refuse("must be PATH=VALUE, such as rotor.damping=8");
     }
-    const auto parts = partsOf(trimmed(change_.given.substr(0, equals)));
+    return apply(trimmed(change_.given.substr(0, equals)),
+                 valueOf(trimmed(change_.given.substr(equals + 1))));
+  }
+
+  SceneChange apply(const std::string& path, const YAML::Node& value) {
+    const auto parts = partsOf(path);
     if (!parts) {
       refuse("must begin with a path, such as rotor.damping or rotor.discs[0].mass");
     }
-    value_ = valueOf(trimmed(change_.given.substr(equals + 1)));
+    value_ = value;
     for (const std::vector<Part>& place : places(*parts)) {
       put(place);
     }
@@ -104,7 +112,7 @@ class Changer {
 
  private:
   [[noreturn]] void refuse(const std::string& why) const {
-    throw InputError(fmt::format("--set {}: {}", printable(change_.given), why));
+    throw InputError(fmt::format("{}{}: {}", option_, printable(change_.given), why));
   }
 
   YAML::Node valueOf(const std::string& text) const {
@@ -184,6 +192,10 @@ class Changer {
         if (at.IsDefined() && !at.IsNull() && !at.IsMap()) {
           refuse(fmt::format("{} is {}, which has no {}", key, shown(at), inQuotes(*name)));
         }
+        if (value_.IsNull() && way.size() + 1 == place.size()) {
+          at.remove(*name);
+          return;
+        }
         at.reset(at[*name]);
       } else {
         const std::size_t index = std::get<std::size_t>(part);
@@ -202,6 +214,7 @@ class Changer {
 
   YAML::Node& tree_;
   SceneChange change_;
+  const char* option_;
   YAML::Node value_;
 };
 
@@ -219,9 +232,13 @@ std::vector<SceneChange> changeScene(YAML::Node& tree, const std::vector<std::st
   tree = separated(tree);
   all.reserve(changes.size());
   for (const std::string& change : changes) {
-    all.push_back(Changer(tree, change).apply());
+    all.push_back(Changer(tree, change, "--set ").apply());
   }
   return all;
+}
+
+void changeScene(YAML::Node& tree, const std::string& path, const YAML::Node& value) {
+  Changer(tree, path, "").apply(path, value);
 }
 
 std::string namedByChange(const std::string& error, const std::string& source,

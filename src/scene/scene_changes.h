@@ -29,6 +29,9 @@ struct SceneChange {
 /// map in YAML. Throws InputError, "--set rotor.dampin=8: ...", for a path that leads nowhere.
 std::vector<SceneChange> changeScene(YAML::Node& tree, const std::vector<std::string>& changes);
 
+/// Puts a value, in place; a null one removes the key. Throws InputError, "rotor.dampin: ...".
+void changeScene(YAML::Node& tree, const std::string& path, const YAML::Node& value);
+
 /// As readScene(), of a tree that was changed: an error at a place of a change begins with it,
 /// "--set rotor.damping=8 kg: systems.rotor.parameters.damping: ...".
 Scene readChangedScene(const YAML::Node& tree, const std::string& source,

@@ -307,17 +307,6 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
   return spec;
 }
 
-/// The barred speed ranges of the drives, which depend on their systems.
-void readAvoided(const MapReader& map, Scene& scene, Diagnostics& diagnostics) {
-  for (std::size_t i = 0; i < scene.drives.size(); ++i) {
-    const YAML::Node drive = map.at("drives")[scene.drives[i].name];
-    if (drive.IsMap() && drive["avoid"]) {
-      readAvoidance(drive["avoid"], fmt::format("drives.{}.avoid", scene.drives[i].name), i, scene,
-                    diagnostics);
-    }
-  }
-}
-
 Scene readTree(const YAML::Node& tree, const std::string& source, Diagnostics& diagnostics) {
   Scene scene;
   scene.source = source;
@@ -358,7 +347,7 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Diagnostics& d
                                        controlled, diagnostics));
   }
   checkMotors(scene, diagnostics);
-  readAvoided(map, scene, diagnostics);
+  readAvoidedSpeeds(map, scene, diagnostics);
   checkStations(scene, systems, diagnostics);
   if (map.has("sensors")) {
     scene.sensors = readSensors(map.at("sensors"), "sensors", scene, diagnostics);

@@ -45,7 +45,7 @@ SignalNames::SignalNames(const Scene& scene) {
     const std::string& system = scene.systems[i].name;
     SignalSpec signal;
     signal.system = i;
-    const std::vector<Station> stations = dynamics.stations();
+    const std::vector<Station> stations = dynamics.places();
     for (std::size_t k = 0; k < stations.size(); ++k) {
       signal.station = k;
       if (k == 0) {

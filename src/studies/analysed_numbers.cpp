@@ -127,7 +127,7 @@ struct AnalysedScene::Results {
         linearization = linearizationAbout(dynamics, point->q, point->v, speed);
       } else {
         about = q;
-        judged = !isJudgedOnlyAtRest(dynamics) && !isUnsupported(dynamics, speed);
+        judged = dynamics.linear() && !isUnsupported(dynamics, speed);
         linearization = dynamics.linearization(q, v, dynamics.acceleration(q, v, start), start);
       }
     }

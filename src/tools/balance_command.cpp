@@ -1,17 +1,12 @@
-#include <fmt/format.h>
-
-#include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 
-#include "algebra/constants.h"
-#include "messages/names.h"
 #include "reports/csv_table.h"
-#include "reports/report_values.h"
+#include "requests/field_balancing.h"
 #include "requests/rotor_requests.h"
 #include "requests/scene_argument.h"
 #include "tools/arguments.h"
-#include "tools/balancing_runs.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
 
@@ -20,9 +15,9 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kBalanceDescription =
-    "Balances a rotor in several planes: by influence coefficients, from measured trial runs; or, "
+    "Balances a rotor in several planes: by influence coefficients, from measured trial runs or "
     "of\n"
-    "a rotor with a model, from one log of the running machine.";
+    "an earlier job; or, of a rotor with a model, from one log of the running machine.";
 
 constexpr const char* kBalanceFooter =
     "FILE is YAML or JSON:\n"
@@ -30,16 +25,27 @@ constexpr const char* kBalanceFooter =
     "  planes:  [disc_1, disc_2]                   where masses can be added\n"
     "  initial: [[12e-6, 40], [9e-6, 130]]         amplitude and phase lag (deg) of each; the\n"
     "                                              amplitudes without a unit, or with: 2.5 mil\n"
-    "  trials:                                     runs with one trial mass each\n"
+    "  trials:                                     runs with one more trial mass each\n"
     "    - {plane: disc_1, mass_radius: 1e-4, angle: 0, readings: [[8e-6, 55], [7e-6, 120]]}\n"
     "    - {plane: disc_2, mass_radius: 100 g mm, angle: 90, readings: [[10e-6, 20], [5e-6, "
     "150]]}\n"
-    "  weights: [1, 1]                             of the probes; optional\n"
-    "  deviation: 0.2e-6                           standard deviation of either component of a\n"
-    "                                              reading; default: estimated from the residual,\n"
-    "                                              where there are more probes than planes\n"
     "mass_radius in kg m, or with a unit: 15 g mm, 5 oz in; angles in deg, from the shaft's phase\n"
-    "mark in the direction of rotation.\n"
+    "mark in the direction of rotation. Optional:\n"
+    "  left_in: true         in a trial run: its mass stays in during the later runs\n"
+    "  influence: [[[0.11 um/(g m), 40], ...], ...]   in place of trials: the coefficients of an\n"
+    "                        earlier job, a row for each probe, as this command prints them\n"
+    "  symmetric: {probes: [[left, right]], planes: [[disc_1, disc_2]]}   the rotor is the same\n"
+    "                        from either end: one trial run serves both planes of a pair\n"
+    "  phase: lead           of the readings; default: lag\n"
+    "  angles: against_rotation   default: with_rotation\n"
+    "  weights: [1, 1]       of the probes\n"
+    "  deviation: 0.2e-6     standard deviation of either component of a reading; default: from\n"
+    "                        the residual, where there are more probes than planes\n"
+    "  limits: {disc_1: 20 g mm}                      the largest mass times radius of a plane\n"
+    "  places: {disc_1: {count: 12, first: 15}}       holes, or a list of angles: each mass is\n"
+    "                        split over the two places beside its angle\n"
+    "  tolerance: {grade: 2.5, mass: 40, speed: 3000 rpm, shares: {disc_1: 0.5, disc_2: 0.5}}\n"
+    "                        of ISO 21940-11, grade in mm/s; default: equal shares\n"
     "The correction masses are to be added after the trial masses are removed.\n"
     "\n"
     "With --measured, FILE is a scene, and LOG an LCM log, a rosbag or a table with the "
@@ -52,8 +58,10 @@ constexpr const char* kBalanceFooter =
     "run-out is estimated with the unbalance. Angles count from the shaft's phase mark.\n"
     "Unbalances that the log does not identify are reported, and null in the JSON.\n"
     "\n"
-    "Example:\n"
-    "  twin balance balancing --measured run.lcmlog --planes left_disc right_disc";
+    "Examples:\n"
+    "  twin balance runs.yaml\n"
+    "  twin simulate balancing --duration 14 --measure sensors --output run.lcmlog\n"
+    "  twin balance balancing --measured run.lcmlog --planes node_2 node_4";
 
 constexpr OptionQuantity kAnySpeed{"a shaft speed", "rad/s", 0.0};
 
@@ -64,109 +72,9 @@ struct BalanceRequest {
   bool json = false;
 };
 
-double degrees(const std::complex<double>& z) {
-  return std::arg(z) / kDegree + 0.0;
-}
-
-using Spread = std::optional<CorrectionSpread>;
-
-/// [deg], standard deviation of the angle of a mass from that of its components.
-double angleDeviation(const std::complex<double>& mass, double deviation) {
-  return std::atan2(deviation, std::abs(mass)) / kDegree;
-}
-
-/// Half width of the 95 % interval of a value; null where it is unknown.
-Json aside(double value, const Spread& spread, double deviation) {
-  return spread ? Json{value - spread->within95 * deviation, value + spread->within95 * deviation}
-                : Json();
-}
-
-Json balanceJson(const BalancingRuns& runs, const BalanceCorrection& c, const Spread& spread) {
-  Json json;
-  for (std::size_t i = 0; i < runs.planes.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const std::complex<double> mass = c.mass_radius[k];
-    const double size = spread ? spread->deviation[k] : 0.0;
-    const double turn = angleDeviation(mass, size);
-    json["correction"][runs.planes[i]] = {
-        {"mass_radius", std::abs(mass)},
-        {"angle", degrees(mass)},
-        {"mass_radius_deviation", spread ? Json(size) : Json()},
-        {"angle_deviation", spread ? Json(turn) : Json()},
-        {"mass_radius_interval", aside(std::abs(mass), spread, size)},
-        {"angle_interval", aside(degrees(mass), spread, turn)}};
-  }
-  for (std::size_t i = 0; i < runs.probes.size(); ++i) {
-    const auto left = c.residual[static_cast<Eigen::Index>(i)];
-    json["residual"][runs.probes[i]] = {{"amplitude", std::abs(left)},
-                                        {"phase_lag", -degrees(left) + 0.0}};
-  }
-  json["residual_rms"] = c.rms;
-  json["amplitude_unit"] = textOrNull(runs.unit);  // null: that of the readings
-  json["condition"] = c.condition;
-  return json;
-}
-
-/// The correction masses; the residual vibration at the probes.
-CsvTables balanceTables(const BalancingRuns& runs, const BalanceCorrection& c) {
-  CsvTable planes{"", {"plane", "mass_radius", "angle"}};
-  for (std::size_t i = 0; i < runs.planes.size(); ++i) {
-    const auto mass = c.mass_radius[static_cast<Eigen::Index>(i)];
-    planes.rows.push_back(
-        {{"plane", runs.planes[i]}, {"mass_radius", std::abs(mass)}, {"angle", degrees(mass)}});
-  }
-  CsvTable probes{"vibration", {"probe", "before", "after"}};
-  for (std::size_t i = 0; i < runs.probes.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    probes.rows.push_back({{"probe", runs.probes[i]},
-                           {"before", std::abs(runs.initial[k])},
-                           {"after", std::abs(c.residual[k])}});
-  }
-  return {planes, probes};
-}
-
-std::string balanceText(const BalancingRuns& runs, const BalanceCorrection& c,
-                        const Spread& spread) {
-  std::string out = fmt::format("add                mass x radius, kg m   angle, deg{}\n",
-                                spread ? "   (half-width of the 95 % interval: kg m, deg)" : "");
-  for (std::size_t i = 0; i < runs.planes.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const std::complex<double> mass = c.mass_radius[k];
-    out += fmt::format("  {:<18} {:>18.6g} {:>12.4f}", printable(runs.planes[i]), std::abs(mass),
-                       degrees(mass));
-    out += spread ? fmt::format("   ({:.2g}, {:.2g})", spread->within95 * spread->deviation[k],
-                                spread->within95 * angleDeviation(mass, spread->deviation[k]))
-                  : "";
-    out += "\n";
-  }
-  if (!spread) {
-    out += "  no confidence intervals: give `deviation`, or more probes than planes\n";
-  }
-  const std::string vibration = runs.unit.empty() ? "vibration" : "vibration, " + runs.unit;
-  out += fmt::format("{:<18} {:>18} {:>12}\n", vibration, "before", "after");
-  for (std::size_t i = 0; i < runs.probes.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    out += fmt::format("  {:<18} {:>16.6g} {:>12.6g}\n", printable(runs.probes[i]),
-                       std::abs(runs.initial[k]), std::abs(c.residual[k]));
-  }
-  return out +
-         (std::isfinite(c.condition)
-              ? fmt::format("planes: condition number {:.4g}\n", c.condition)
-              : "planes: linearly dependent or without effect: the smallest masses are given\n");
-}
-
 int balanceRuns(const BalanceRequest& request) {
-  const BalancingRuns runs = readBalancingRuns(request.scene.name);
-  const Eigen::MatrixXcd influence =
-      influenceOfPlanes(runs.initial, runs.trials, static_cast<Eigen::Index>(runs.planes.size()));
-  const BalanceCorrection correction = balance(influence, runs.initial, runs.weights);
-  const Spread spread =
-      correctionSpread(influence, runs.trials, runs.weights, correction, runs.deviation);
-  if (request.csv) {
-    writeCsv(*request.csv, balanceTables(runs, correction));
-  }
-  return printReport(request.json, balanceJson(runs, correction, spread),
-                     balanceText(runs, correction, spread));
+  return printDocument(fieldBalancingDocument(readBalancingJob(request.scene.name)), request.json,
+                       request.csv);
 }
 
 int balanceMeasured(const BalanceRequest& request) {
@@ -179,7 +87,7 @@ int balanceMeasured(const BalanceRequest& request) {
 void addBalanceCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("balance", kBalanceDescription);
   const auto request = std::make_shared<BalanceRequest>();
-  command.option("FILE", request->scene.name, "the trial runs; with --measured the scene")
+  command.option("FILE", request->scene.name, "the balancing job; with --measured the scene")
       .required()
       .type("");
   const Option measured =

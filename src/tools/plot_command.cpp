@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -24,7 +26,9 @@ namespace {
 
 constexpr const char* kPlotDescription =
     "Runs a scene from its start and draws the result: for each system a picture, its "
-    "time\nhistory, its phase portrait and its energies. Or draws the results of a study.";
+    "time\nhistory, its phase portrait and its energies. Or draws the results of a study, or "
+    "figures "
+    "that\nwere written as JSON over each other.";
 
 constexpr const char* kPlotFooter =
     "Files in the folder, for each system, as svg, png, pdf or json (the data of the figure):\n"
@@ -41,12 +45,15 @@ constexpr const char* kPlotFooter =
     "  NAME_scatter   over each varied parameter; one at a time: its curve over each\n"
     "  NAME_tornado   its sensitivity to each: sobol_indices, morris, one_at_a_time\n"
     "  NAME_map       over both parameters of a grid of two\n"
+    "Of figures, FILE.json as SCENE and --over: their curves over each other, FILE_OTHER.FORMAT;\n"
+    "they must be charts over the same axes.\n"
     "The folder and its files appear only when all of them are complete.\n"
     "\n"
     "Examples:\n"
     "  twin plot double_pendulum --system absolute --duration 20\n"
     "  twin plot my_scene.yaml --output pictures --format png\n"
-    "  twin plot study.yaml --results results --output pictures";
+    "  twin plot study.yaml --results results --output pictures\n"
+    "  twin plot chaos_first_time.json --over chaos_second_time.json";
 
 constexpr std::int64_t kMaxSamples = 100'000;
 constexpr std::int64_t kEnsembleSamples = 600;
@@ -54,6 +61,7 @@ constexpr std::int64_t kEnsembleSamples = 600;
 struct PlotRequest {
   SimulationRequest run;
   std::optional<std::string> results;  // of a study, given in place of the scene
+  std::vector<std::string> over;       // figures, drawn over one given in place of the scene
   std::string folder = ".";
   std::string format = "svg";
 };
@@ -137,6 +145,41 @@ int plotStudy(const PlotRequest& request) {
   return kDone;
 }
 
+/// Of a figure's file.
+Json readFigure(const std::string& path) {
+  std::ifstream file(path);
+  const Json figure = Json::parse(file, nullptr, false);
+  if (!figure.is_object() || !figure.contains("kind")) {
+    throw InputError(
+        fmt::format("{}: must be the data of a figure, as --plot FILE.json and --format "
+                    "json write it",
+                    path));
+  }
+  return figure;
+}
+
+int plotFigures(const PlotRequest& request) {
+  if (request.format == "json") {
+    throw InputError("--format: must be svg, png or pdf for figures, found 'json'");
+  }
+  Json figures = Json::object();
+  std::string name;
+  const auto take = [&](const std::string& path) {
+    const std::string stem = std::filesystem::path(path).stem().string();
+    const Json figure = readFigure(path);
+    figures[figures.contains(stem) ? path : stem] = figure;
+    name += (name.empty() ? "" : "_") + stem;
+  };
+  take(request.run.scene.name);
+  std::for_each(request.over.begin(), request.over.end(), take);
+  const OutputFolder made(request.folder);
+  Drawings drawings;
+  drawings.addOverlaid(
+      (std::filesystem::path(request.folder) / (name + "." + request.format)).string(), figures);
+  complete(drawings);
+  return kDone;
+}
+
 /// Detects a study given in place of a scene, for a helpful error.
 bool isStudy(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) {
@@ -154,6 +197,14 @@ int plot(const PlotRequest& request) {
   if (figureFormat("plot." + request.format).empty()) {
     throw InputError(
         fmt::format("--format: must be svg, png, pdf or json, found '{}'", request.format));
+  }
+  if (figureFormat(request.run.scene.name) == "json") {
+    return plotFigures(request);
+  }
+  if (!request.over.empty()) {
+    throw InputError(
+        fmt::format("--over: needs a figure, FILE.json, in place of the scene, found {}",
+                    request.run.scene.name));
   }
   if (request.results) {
     return plotStudy(request);
@@ -197,6 +248,9 @@ void addPlotCommand(const ProgramCommand& twin, int& status) {
   command
       .option("--results", request->results, "folder of a study's results; SCENE is then the study")
       .type("FOLDER");
+  command
+      .option("--over", request->over, "figures drawn over one; SCENE is then its FILE.json, too")
+      .type("FILE.json");
   command
       .option("--output", request->folder,
               "folder of the files, created if missing; default: the current one")

@@ -13,6 +13,7 @@
 #include "reports/rotor_report.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/report_options.h"
 #include "tools/stage_options.h"
 
 namespace whirl_twin {
@@ -37,7 +38,7 @@ constexpr const char* kReportFooter =
 struct ReportRequest {
   SceneArgument scene;
   std::string output;
-  std::optional<std::string> system;
+  std::optional<std::string> system, units;
   RotorReportRequest report;
   StageOptions stages;
 };
@@ -65,6 +66,7 @@ std::string pageName(const std::string& scene, const std::string& system) {
 
 int reportOf(ReportRequest& request) {
   request.report.stages = request.stages.all();
+  request.report.units = chosenUnits(request.units);
   const BuiltScene scene = build(sceneOf(request.scene));
   const auto systems = rotorSystems(scene, request.system);
   std::vector<ReportPage> pages;
@@ -100,6 +102,7 @@ void addReportCommand(const ProgramCommand& twin, int& status) {
                 "speed of modes, margins and stability", "the drive's highest")
       .type("W");
   addStageOptions(command, request->stages);
+  addUnitsOption(command, request->units);
   command.footer(kReportFooter);
   command.callback([request, &status] { status = reportOf(*request); });
 }

@@ -9,7 +9,7 @@ void addReportOptions(const ProgramCommand& command, ReportOptions& options,
                       const std::string& drawn) {
   addSceneOption(command, options.scene);
   command.option("--system", options.system, "only this rotor").type("NAME");
-  command.option("--plot", options.plot, drawn + ", FILE.svg or FILE.png").type("FILE");
+  command.option("--plot", options.plot, drawn + ", FILE.svg, .png, .pdf or .json").type("FILE");
   addCsvOption(command, options.csv);
   addUnitsOption(command, options.units);
   addJsonOption(command, options.json);
@@ -18,7 +18,7 @@ void addReportOptions(const ProgramCommand& command, ReportOptions& options,
 void addUnitsOption(const ProgramCommand& command, std::optional<std::string>& units) {
   command
       .option("--units", units,
-              "units of the printed text, such as \"rpm, mil pp, deg\"; default: those of the file "
+              "units of text and figures, such as \"rpm, mil pp, deg\"; default: those of the file "
               "~/.config/whirl_twin/units, else SI; JSON and CSV are always in SI")
       .type("LIST");
 }

@@ -35,7 +35,7 @@ MeasuredSource::MeasuredSource(const SensorSpec& spec, const BuiltScene& scene,
         {},      first_,       {}};
     if (channel.signal.kind == SignalSpec::Kind::kDisplacement) {
       made.station =
-          scene.systems[channel.signal.system]->dynamics->stations()[channel.signal.station];
+          scene.systems[channel.signal.system]->dynamics->places()[channel.signal.station];
     }
     made.last = signal(made, observer);
     made.sensor.start(made.last.value);

@@ -6,7 +6,7 @@
 
 #include "algebra/constants.h"
 #include "mechanics/round_number.h"
-#include "reports/sketch_json.h"
+#include "reports/figure.h"
 
 namespace whirl_twin {
 

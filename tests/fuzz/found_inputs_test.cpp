@@ -109,7 +109,7 @@ TEST(FoundInputs, TwinProbesAndMisspeltKeysOfRunsAreNamedTogether) {
   const Ending end = twin({"balance", "--json", file});
   EXPECT_EQ(end.status, 2);
   EXPECT_EQ(end.err, "twin: " + file +
-                         ": weigths: unknown key of balancing runs; did you mean 'weights'?\n"
+                         ": weigths: unknown key of a balancing job; did you mean 'weights'?\n"
                          "twin: " +
                          file + ": probes[1]: must be unique, found 'p' twice\n");
 }

@@ -37,6 +37,7 @@ TEST(Units, OfInchAndPound) {
   EXPECT_NEAR(unitScale("lbf s/in", "N s/m"), 175.1268, 5e-5);
   EXPECT_NEAR(unitScale("reyn", "Pa s"), 6894.757, 5e-4);
   EXPECT_DOUBLE_EQ(unitScale("mil", "um"), 25.4);
+  EXPECT_DOUBLE_EQ(unitScale("um/(g m)", "m/(kg m)"), 1.0e-3);
 }
 
 TEST(Units, ATurnIsTwoPi) {
@@ -199,8 +200,9 @@ TEST(Units, TheOneMeantIsNamed) {
 }
 
 TEST(Units, AFactorIsNoPartOfAUnit) {
-  for (const char* none : {"rpm 2", "m 3", "m/2", "m*2", "m.5", "2 m", "1/2 s", "1/", "\xff",
-                           "rpm\xff", "rpm\xc2", "rpm\xc3(", "rpm\n", "rpm\xe2\x80\xae"}) {
+  for (const char* none :
+       {"rpm 2", "m 3", "m/2", "m*2", "m.5", "2 m", "1/2 s", "1/", "m/(2 s)", "lg(mW)", "(m)",
+        "\xff", "rpm\xff", "rpm\xc2", "rpm\xc3(", "rpm\n", "rpm\xe2\x80\xae"}) {
     EXPECT_FALSE(isUnit(none)) << none;
   }
   for (const char* unit : {"kg m2", "m^2/s^2", "1/s", "N.m", "N m/rad"}) {

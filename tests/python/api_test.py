@@ -81,14 +81,14 @@ class Scenes(unittest.TestCase):
 
     def test_with_names_what_is_not_there(self):
         scene = wt.Scene.load(JEFFCOTT)
-        with self.assertRaisesRegex(wt.InputError, "motor: must be the name of a system, drive"):
+        with self.assertRaisesRegex(wt.InputError, "motor.mass: there is no system, controller, drive or sensor 'motor'"):
             scene.with_(motor={"mass": 1.0})
         with self.assertRaisesRegex(wt.SceneError, "systems.rotor.parameters.mas: unknown.*did you mean 'mass'"):
             scene.with_(rotor={"mas": 1.0})
         for path in ("discs[9].mass", "mass[0]", "a..b", "", "mass.deep"):
             with self.assertRaises(wt.InputError):
                 scene.with_(rotor={path: 1.0})
-        with self.assertRaises(TypeError):
+        with self.assertRaisesRegex(wt.InputError, "rotor: must name a value of rotor"):
             scene.with_(rotor=5.0)
 
 
@@ -262,6 +262,22 @@ class Reports(unittest.TestCase):
                 wt.balance("balancing", measured=log, from_=300)
         with self.assertRaisesRegex(wt.InputError, "--from must be < --to"):
             wt.balance("balancing", measured=log, from_=50, to=40)
+
+    def test_balancing_job_of_a_mapping_and_of_a_file(self):
+        # v = 2 u: an unbalance of 3 at 0 deg, and 1 more at 90 deg.
+        job = {"probes": ["left"], "planes": ["disc"], "initial": [[6, 0]],
+               "trials": [{"plane": "disc", "mass_radius": 1, "angle": 90,
+                           "readings": [[math.hypot(6, 2), -math.degrees(math.atan2(2, 6))]]}]}
+        result = wt.balance_job(job)
+        self.assertAlmostEqual(result.correction["disc"]["mass_radius"], 3.0, places=9)
+        self.assertAlmostEqual(abs(result.correction["disc"]["angle"]), 180.0, places=7)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "job.yaml")
+            path.write_text(json.dumps(job))
+            self.assertEqual(wt.balance_job(path).to_dict(), result.to_dict())
+            self.assertEqual(printed("balance", str(path)), result.to_dict())
+        with self.assertRaisesRegex(wt.InputError, "job: planes: must be"):
+            wt.balance_job({**job, "planes": []})
 
 
 class Package(unittest.TestCase):

@@ -225,7 +225,7 @@ class Charts(unittest.TestCase):
         drawn.savefig(os.devnull, format="png")
         boxes = [child.get_window_extent() for child in ax.get_children()
                  if isinstance(child, matplotlib.legend.Legend)]
-        self.assertEqual(len(boxes), 9)
+        self.assertEqual(len(boxes), 1)
         for box in boxes:
             self.assertGreater(box.y0, ax.get_window_extent().y1)
             self.assertLess(box.x1, drawn.bbox.x1)
@@ -264,6 +264,33 @@ class Charts(unittest.TestCase):
                             notes=[{"x": 1, "y": 5, "text": "note"}], vertical=[{"at": 1, "label": "line"}])
                       for row in rows]
             svg_of(figure(*charts, columns=4, width=1600, chart_height=200))
+
+
+class Overlays(unittest.TestCase):
+    def test_curves_of_all_figures_are_in_one_with_their_names(self):
+        other = figure(chart([series([0, 5], [2, 3], name="ramp")], title="its own"), title="another")
+        drawn = drawing.draw(drawing.overlaid({"model": figure(chart([RAMP])), "measured": other}))
+        (ax,) = drawn.axes
+        self.assertEqual([line.get_label() for line in ax.lines], ["model", "measured"])
+        np.testing.assert_array_equal(ax.lines[1].get_xydata(), [[0, 2], [5, 3]])
+        self.assertNotEqual(ax.lines[0].get_color(), ax.lines[1].get_color())
+        self.assertNotEqual(ax.lines[0].get_linestyle(), ax.lines[1].get_linestyle())
+        self.assertEqual(drawn._suptitle.get_text(), "a figure and another")
+
+    def test_several_curves_keep_their_colours_and_get_the_dashes_of_their_figure(self):
+        pair = [{**RAMP, "name": "x"}, {**RAMP, "name": "y"}]
+        (ax,) = drawing.draw(drawing.overlaid({"a": figure(chart(pair)), "b": figure(chart(pair))})).axes
+        self.assertEqual([line.get_label() for line in ax.lines], ["a, x", "a, y", "b, x", "b, y"])
+        colors = [line.get_color() for line in ax.lines]
+        self.assertEqual(colors[:2], colors[2:])
+        self.assertEqual([line.is_dashed() for line in ax.lines], [False, False, True, True])
+
+    def test_other_axes_are_an_error(self):
+        for other, wrong in ((figure(chart([RAMP], y={"label": "y (m)"})), "b: axes as in a are required"),
+                             (figure(chart([RAMP]), chart([RAMP])), "b: charts as in a are required"),
+                             (bars_figure(), "b: charts are required, found a figure of kind bars")):
+            with self.assertRaisesRegex(drawing.RequestError, wrong):
+                drawing.overlaid({"a": figure(chart([RAMP])), "b": other})
 
 
 class Bars(unittest.TestCase):
@@ -530,7 +557,7 @@ class Program(unittest.TestCase):
                 (one(figure({"legend": 1})), "drawings[0].figure.charts[0]: one of the fields title, "),
                 (one(figure(columns=0)), "drawings[0].figure.columns: a number from 1 to 12 is required, found 0"),
                 (one(sketch_figure({"balls": [{"at": [0, 0], "radius": 1}]})),
-                 "drawings[0].figure.sketch.balls[0].at: three numbers (m) are required")):
+                 "drawings[0].figure.sketch.balls[0].at: a point of three numbers (m) is required")):
             status, error = run(request)
             self.assertEqual(status, 1, error)
             self.assertTrue(error.startswith(start), error)

@@ -248,6 +248,54 @@ TEST(Loop, OfLevitationBearsLessDelayAtOnceThanAtEachSensor) {
   }
 }
 
+// The inverted pendulum of the Control Tutorials for MATLAB, M 0.5, m 0.2, b 0.1, l 0.3, I 0.006, Q
+// = diag(1, 1, 0, 0), R = 1: K computed by an independent Riccati equation.
+TEST(Loop, ShowsTheGainThatADesignHasComputed) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write(
+      "scene.yaml",
+      "step: 0.001\ngravity: 9.8\nsystems:\n  c: {model: cart_pendulum, parameters: {cart_mass: "
+      "0.5, "
+      "rod_mass: 0.2, rod_length: 0.6, stiffness: 0.0, damping: 0.1}, initial: {theta: "
+      "3.141592653589793, x: 0.1}}\ncontrollers:\n  k: {type: lqr, rate: 1000.0, measures: [c.x, "
+      "c.theta, c.x_rate, c.theta_rate], acts_on: [c.force], parameters: {q: [1.0, 1.0, 0.0, 0.0], "
+      "r: [1.0], cost: continuous, setpoint: [0.0, 3.141592653589793, 0.0, 0.0]}}\n");
+  const Ending end = twin({"loop", scene, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json feedback = end.json()["controllers"]["k"]["gains"]["feedback"];
+  const std::vector<double> expected{-1.0, 18.6854, -1.65671, 3.45944};
+  ASSERT_EQ(feedback.size(), 1U);
+  ASSERT_EQ(feedback[0].size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(feedback[0][i].get<double>(), expected[i], 1e-4 * std::fabs(expected[i]));
+  }
+  EXPECT_NE(twin({"loop", scene}).out.find("K of u = -K (y - setpoint)"), std::string::npos);
+}
+
+// A first sample y moves the estimate by M y and the output by -K M y: the law has that as D.
+TEST(Loop, ShowsFeedbackAndEstimatorOfAnLqg) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write(
+      "scene.yaml",
+      "step: 0.001\nsystems: {m: {model: mass_spring_damper, parameters: {mass: 2.0, stiffness: "
+      "50.0, damping: 0.1}}}\ncontrollers: {k: {type: lqg, rate: 100.0, measures: [m.x], acts_on: "
+      "[m.force], parameters: {q: [1.0, 1.0], r: [1.0], process_noise: [0.1, 0.1], sensor_noise: "
+      "[0.01]}}}\n");
+  const Ending end = twin({"loop", scene, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json k = end.json()["controllers"]["k"];
+  EXPECT_EQ(k["gains"]["feedback"].size(), 1U);
+  EXPECT_EQ(k["gains"]["feedback"][0].size(), 2U);
+  EXPECT_EQ(k["gains"]["estimator"].size(), 2U);
+  EXPECT_EQ(k["law"]["a"].size(), 2U);
+  double direct = 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    direct -=
+        k["gains"]["feedback"][0][i].get<double>() * k["gains"]["estimator"][i][0].get<double>();
+  }
+  EXPECT_NEAR(k["law"]["d"][0][0].get<double>(), direct, 1e-9 * std::fabs(direct));
+}
+
 TEST(Loop, IsDrawn) {
   const TemporaryDirectory folder;
   const std::string scene = folder.write("scene.yaml", levitation(2.0, 1.4, 0.1, 0.03));

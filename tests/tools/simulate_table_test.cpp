@@ -35,8 +35,9 @@ TEST(Table, HeaderAndRows) {
   ASSERT_EQ(rows.size(), 1u + 51u);
   EXPECT_EQ(rows[0],
             "time,rotor.x,rotor.y,rotor.x_rate,rotor.y_rate,rotor.whirl_radius,rotor.whirl_phase,"
+            "rotor.disc.x,rotor.disc.y,rotor.shaft_speed,rotor.shaft_angle,"
             "pendulum.theta,pendulum.theta_rate");
-  EXPECT_EQ(rows[1], "0,0,0,0,0,0,nan,0.050000000000000003,0");
+  EXPECT_EQ(rows[1], "0,0,0,0,0,0,nan,0,0,0,0,0.050000000000000003,0");
   EXPECT_EQ(fields(rows[2])[0], "0.01");
   EXPECT_EQ(fields(rows.back())[0], "0.5");
 }
@@ -52,7 +53,7 @@ TEST(Table, OneSystemOnly) {
   ASSERT_EQ(one.size(), all.size());
   EXPECT_EQ(one[0], "time,pendulum.theta,pendulum.theta_rate");
   const auto whole = fields(all.back());
-  EXPECT_EQ(fields(one.back()), (std::vector<std::string>{whole[0], whole[7], whole[8]}));
+  EXPECT_EQ(fields(one.back()), (std::vector<std::string>{whole[0], whole[11], whole[12]}));
 }
 
 // The demo's profile: 1.2 s + 3 s, then two longer moves; its sum is in `twin check`.
@@ -119,7 +120,7 @@ TEST(Table, DigitsAndJsonAreTheSameNumbers) {
   EXPECT_EQ(rotor["state"]["y_rate"], std::stod(last[4]));
   EXPECT_EQ(rotor["whirl_radius"], std::stod(last[5]));
   EXPECT_EQ(rotor["whirl_phase"], std::stod(last[6]));
-  EXPECT_EQ(end["systems"]["pendulum"]["state"]["theta_rate"], std::stod(last[8]));
+  EXPECT_EQ(end["systems"]["pendulum"]["state"]["theta_rate"], std::stod(last[12]));
 }
 
 TEST(Table, JsonHasTheFinalState) {

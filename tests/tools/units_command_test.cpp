@@ -347,36 +347,5 @@ TEST(OtherFiles, HaveAtMostTenErrors) {
   EXPECT_EQ(linesOf(end.err).back(), "and 490 more");
 }
 
-TEST(BalancingRuns, HaveUnits) {
-  const TemporaryDirectory folder;
-  const auto runs = [&](const std::string& first, const std::string& rest, const std::string& mass,
-                        const std::string& angle) {
-    return twin(
-        {"balance",
-         folder.write("runs.yaml", "probes: [a]\nplanes: [disc]\ninitial: [[" + first +
-                                       "]]\ntrials:\n  - {plane: disc, mass_radius: " + mass +
-                                       ", angle: " + angle + ", readings: [[" + rest + "]]}\n"),
-         "--json"});
-  };
-  const Ending si = runs("6.35e-5, 130", "2.54e-5, 40", "1.5e-5", "60");
-  const Ending units =
-      runs("2.5 mil, 130 deg", "25.4 um, 0.6981317007977318 rad", "15 g mm", "60 °");
-  ASSERT_EQ(units.status, 0) << units.err;
-  EXPECT_NEAR(units.json()["correction"]["disc"]["mass_radius"].get<double>(),
-              si.json()["correction"]["disc"]["mass_radius"].get<double>(), 1e-15);
-  EXPECT_NEAR(units.json()["correction"]["disc"]["angle"].get<double>(),
-              si.json()["correction"]["disc"]["angle"].get<double>(), 1e-9);
-  EXPECT_EQ(units.json()["amplitude_unit"], "m");
-  EXPECT_TRUE(si.json()["amplitude_unit"].is_null());
-  EXPECT_NE(runs("2.5 mil, 130", "25.4, 40", "15 g mm", "60")
-                .err.find("trials[0].readings[0][0]: must have a unit, as initial[0][0] has"),
-            std::string::npos);
-  EXPECT_NE(
-      runs("2.5 mil, 130", "25.4 mm/s, 40", "15 g mm", "60").err.find("cannot be converted to m"),
-      std::string::npos);
-  EXPECT_NE(runs("1, 130", "2, 40", "15 g", "60").err.find("mass times radius in kg m"),
-            std::string::npos);
-}
-
 }  // namespace units_command_test
 }  // namespace whirl_twin

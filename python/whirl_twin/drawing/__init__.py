@@ -13,9 +13,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+from . import request
 from .request import MissingLibrary, RequestError
 
-__all__ = ["MissingLibrary", "RequestError", "draw", "page_html", "save"]
+__all__ = ["MissingLibrary", "RequestError", "draw", "overlaid", "page_html", "save"]
 
 FORMATS = ("svg", "png", "pdf")
 
@@ -24,14 +25,12 @@ def draw(figure: Mapping[str, Any], ax: Optional["Axes"] = None) -> "Figure":
     """Draw a figure.
 
     With ``ax``, axes of the caller, the first chart is drawn on them and their figure is returned;
-    titles, sizes and columns of the figure do not apply. Without, a figure of its own, 100 px per
-    inch, not registered with pyplot.
+    titles, sizes and columns of the figure do not apply. Without, a new figure, 100 px per inch,
+    not registered with pyplot.
 
     Raises RequestError if a field is missing or wrong, MissingLibrary without matplotlib.
     """
-    from .request import checked_figure
-
-    return _drawn(checked_figure(figure, "figure"), ax)
+    return _drawn(request.figure(figure, "figure"), ax)
 
 
 def _drawn(checked: Mapping[str, Any], ax: Optional["Axes"] = None) -> "Figure":
@@ -52,6 +51,17 @@ def _drawn(checked: Mapping[str, Any], ax: Optional["Axes"] = None) -> "Figure":
         return drawn(checked, ax)
 
 
+def overlaid(figures: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Any]:
+    """One figure with the curves of several, by name, over each other: all are of kind ``charts``.
+
+    Curves of the first are drawn as they are, those of the others in dashes. Reference lines, bands
+    and notes are those of the first. Raises RequestError unless all have the same axes.
+    """
+    from .overlay import overlaid as made
+
+    return made(figures)
+
+
 def save(figure: Mapping[str, Any], path: str, format: str) -> None:
     """Draw a figure and write it: ``format`` is ``svg``, ``png`` (144 px per inch) or ``pdf``.
 
@@ -60,9 +70,7 @@ def save(figure: Mapping[str, Any], path: str, format: str) -> None:
     """
     if format not in FORMATS:
         raise RequestError(f"format: one of {', '.join(FORMATS)} is required, found {format!r}")
-    from .request import checked_figure
-
-    checked = checked_figure(figure, "figure")
+    checked = request.figure(figure, "figure")
     try:
         from . import output, style
     except ImportError as error:
@@ -78,9 +86,7 @@ def page_html(page: Mapping[str, Any]) -> str:
 
     Raises RequestError, MissingLibrary without Jinja2 or (with figures) without matplotlib.
     """
-    from .request import checked_page
-
-    checked = checked_page(page, "page")
+    checked = request.checked(request.PAGE, page, "page")
     try:
         from .pages import html
     except ImportError as error:

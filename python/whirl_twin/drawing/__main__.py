@@ -1,6 +1,7 @@
 """Reads one request (JSON) on standard input and writes its files.
 
 {"drawings": [{"path": ..., "format": "svg" | "png" | "pdf", "figure": {...}},
+              {"path": ..., "format": "svg" | "png" | "pdf", "figures": {"first": {...}, ...}},
               {"path": ..., "format": "html", "page": {...}}, ...]}
 
 On failure: one line on standard error, exit status 1.
@@ -18,10 +19,10 @@ from typing import Any
 
 def run(request: Any) -> None:
     """Write all files of a request."""
-    from . import page_html, save
-    from .request import RequestError, checked_drawing, list_of, record
+    from . import overlaid, page_html, save
+    from .request import RequestError, checked, drawing as one_drawing
 
-    drawings = record({"drawings": list_of(checked_drawing)})(request, "request")["drawings"]
+    drawings = checked({"drawings": [one_drawing]}, request, "request")["drawings"]
     for i, drawing in enumerate(drawings):
         try:
             if drawing["format"] == "html":
@@ -29,7 +30,8 @@ def run(request: Any) -> None:
                 with open(drawing["path"], "w", encoding="utf-8", newline="\n") as file:
                     file.write(contents)
             else:
-                save(drawing["figure"], drawing["path"], drawing["format"])
+                figure = overlaid(drawing["figures"]) if "figures" in drawing else drawing["figure"]
+                save(figure, drawing["path"], drawing["format"])
         except RequestError as error:
             raise RequestError(f"drawings[{i}].{error}") from error
 

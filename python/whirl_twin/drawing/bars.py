@@ -8,7 +8,7 @@ from matplotlib.patches import Patch
 
 from . import style
 from .style import PX
-from .ticks import data_range, most_across, set_axis, ticks_of
+from .ticks import Ticks, data_range, most_across, set_axis, ticks_of
 
 _WIDTH = 800.0  # px
 _BAR = 15.0  # px, with the space between bars
@@ -60,7 +60,8 @@ def draw_bars(chart: dict, ax=None):
                    for color in (_COLORS[k % len(_COLORS)] for k in range(len(names)))]
         style.add_legend(ax, handles, names, width, 7.0)
     if sheet is None:
-        style.add_axes_title(ax, chart["title"], names, width)
+        style.add_axes_title(
+            ax, chart["title"], style.LEGEND_ROW * style.legend_rows(names, width) + 12.0)
     return ax.figure if sheet is None else sheet
 
 
@@ -79,18 +80,16 @@ def _sheet(chart: dict, names: list, height: float):
     subtitle_height = 4.0 + style.height_of(subtitle, size) if subtitle else 0.0
     rows = style.legend_rows(names, width)
     plot_top = top + subtitle_height + style.LEGEND_ROW * rows + 8.0
-    sheet = style.sheet(
-        _WIDTH, plot_top + height + _FOOT, chart["title"], chart["description"])
-    style.add_title(sheet, chart["title"])
+    sheet = style.sheet(_WIDTH, plot_top + height + _FOOT, chart)
     if subtitle:
-        style.add_text(sheet, 0.5 * _WIDTH, top - 4.0, subtitle, size, "center", "top", style.GREY)
+        style.add_text(sheet, 0.5 * _WIDTH, top - 4.0, subtitle, size, ha="center", va="top")
     return sheet, style.add_axes(sheet, left, plot_top, width, height)
 
 
 def _set_axes(ax, chart: dict, fields: dict, low: float, high: float, width: float) -> None:
     ax.set_xlim((high, low) if fields["inverted"] else (low, high))
-    set_axis(ax.xaxis, fields, chart["x"]["label"],
-             lambda a, b: most_across(fields, width, a, b), width + 40.0)
+    ticks = Ticks(fields, lambda a, b: most_across(fields, width, a, b))
+    set_axis(ax.xaxis, fields, chart["x"]["label"], ticks, width + 40.0)
     ax.grid(True, axis="x")
     for side in ("top", "right", "left"):
         ax.spines[side].set_visible(False)

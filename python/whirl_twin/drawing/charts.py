@@ -7,12 +7,13 @@ from typing import Any, Dict, List, Tuple
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
+from matplotlib.ticker import MultipleLocator
 
 from . import style
 from .labels import MARK, label_chart
 from .style import PX
-from .ticks import (data_range, exponent_of, linear_labels, linear_ticks, logarithmic_labels,
-                    most_across, scaled_label, set_axis, shown, ticks_of)
+from .ticks import (LINEAR, Ticks, data_range, exponent_of, labels_of, most_across, scaled_label,
+                    set_axis, shown, ticks_of)
 
 _SECOND_SCALE = 44.0  # px, above a chart
 _RIGHT = 22.0  # px
@@ -72,28 +73,22 @@ class _Layout:
         self.legend_height = style.LEGEND_ROW * self.rows + (6.0 if self.rows else 0.0)
         title = 11.0 + style.height_of(self.title, self.title_size) if self.title else 8.0
         self.top = title + self.legend_height + 4.0
-        most = self.most_up(height - self.top - _FOOT)
+        most = most_up(height - self.top - _FOOT)
         fixed = chart["y"]["tight"] or chart["equal_aspect"]
         ticks = ticks_of(chart["y"], *self.y, most, fixed) or list(self.y)
         if not fixed:
             self.y = (ticks[0], ticks[-1])
-        self.y_labels, exponent = _labels(chart["y"], ticks)
+        labels, exponent = labels_of(chart["y"], ticks)
         self.above = _SECOND_SCALE if chart["x"]["second"] else 0.0
         self.top += self.above
         label, size = style.fitted(
             scaled_label(chart["y"]["label"], exponent), style.LABEL, height - self.top)
-        self.left = (23.0 + style.height_of(label, size)
-                     + max(style.text_width(label, style.TICK) for label in self.y_labels))
+        self.left = 23.0 + style.height_of(label, size) + _widest(labels)
         self.right = _RIGHT
         second = chart["y"]["second"]
-        if second is not None:
-            low, high = sorted((second["factor"] * self.y[0], second["factor"] * self.y[1]))
-            labels, _ = _labels(_LINEAR, linear_ticks(*_nonzero(low, high), most, True))
-            self.right = 44.0 + max(style.text_width(label, style.TICK) for label in labels)
-
-    @staticmethod
-    def most_up(height: float) -> int:
-        return max(4, int(height / _PER_TICK))
+        if second is not None and second["factor"] != 0.0:
+            ends = sorted(second["factor"] * end for end in self.y)
+            self.right = 44.0 + _widest(labels_of(LINEAR, ticks_of(LINEAR, *ends, most, True))[0])
 
     def finish_x(self, width: float) -> None:
         """Ends of the x axis for a width of the plot [px]."""
@@ -103,18 +98,13 @@ class _Layout:
             self.x = (ticks[0], ticks[-1])
 
 
-_LINEAR = {"logarithmic": False, "degrees": False}
+def _widest(labels: List[str]) -> float:
+    return max((style.text_width(label, style.TICK) for label in labels), default=0.0)
 
 
-def _nonzero(low: float, high: float) -> Tuple[float, float]:
-    return (low, high) if low < high else (low - 1.0, low + 1.0)
-
-
-def _labels(axis: dict, ticks: List[float]) -> Tuple[List[str], int]:
-    if axis["logarithmic"]:
-        return logarithmic_labels(ticks), 0
-    exponent = exponent_of(ticks)
-    return linear_labels(ticks, exponent), exponent
+def most_up(height: float) -> int:
+    """As many ticks as have space along a vertical axis of a length [px]."""
+    return max(4, int(height / _PER_TICK))
 
 
 def draw_charts(figure: dict, ax=None):
@@ -128,8 +118,7 @@ def draw_charts(figure: dict, ax=None):
             layout.finish_x(width)
             _draw_chart(ax, layout, width, width, True)
             if not layout.title and figure["title"]:
-                ax.set_title(figure["title"], size=style.CHART_TITLE * PX, weight="bold",
-                             pad=(layout.legend_height + layout.above + 6.0) * PX, y=1.0)
+                style.add_axes_title(ax, figure["title"], layout.legend_height + layout.above + 6.0)
         return ax.figure
     columns = figure["columns"]
     cell = figure["width"] / columns
@@ -138,9 +127,7 @@ def draw_charts(figure: dict, ax=None):
     rows = [layouts[i : i + columns] for i in range(0, len(layouts), columns)]
     heights = [figure["chart_height"] + max(layout.extra for layout in row) for row in rows]
     top = style.title_space(figure["title"], figure["width"])
-    sheet = style.sheet(
-        figure["width"], max(top + sum(heights), 60.0), figure["title"], figure["description"])
-    style.add_title(sheet, figure["title"])
+    sheet = style.sheet(figure["width"], max(top + sum(heights), 60.0), figure)
     for row, height in zip(rows, heights):
         for column, layout in enumerate(row):
             left = max(one.left for one in layouts[column::columns])
@@ -247,7 +234,7 @@ def _add_series(
     marked = series["marks"] != "none"
     (line,) = ax.plot(
         x, y, zorder=(3.0 if marked else 2.0) + 1.0e-4 * index, label=series["name"] or "_",
-        clip_on=clip or not marked, **_look(series, pen),
+        clip_on=clip or not (marked or _fits(ax, x, y)), **_look(series, pen),
     )
     ink = 0.0 if marked else _ink(ax, x, y, pen["width"])
     if ink > _DENSE:  # a band: of a finer line the inside, and what is behind it, are seen
@@ -261,6 +248,12 @@ def _add_series(
             line.set_markeredgewidth(0.0)
             line.set_markevery(np.flatnonzero(alone).tolist())
             line.set_clip_on(clip)
+
+
+def _fits(ax, x: np.ndarray, y: np.ndarray) -> bool:
+    """Is a line inside its frame? Then it is not clipped: at the frame it would be half as wide."""
+    return all(np.nanmin(row, initial=ends[0]) >= min(ends) and np.nanmax(row, initial=ends[0]) <= max(ends)
+               for row, ends in ((x, ax.get_xlim()), (y, ax.get_ylim())))
 
 
 def _ink(ax, x: np.ndarray, y: np.ndarray, width: float) -> float:
@@ -284,55 +277,45 @@ def _set_axes(ax, layout: _Layout) -> None:
     width, height = style.size_of(ax)
     ax.set(xscale="log" if chart["x"]["logarithmic"] else "linear",
            yscale="log" if chart["y"]["logarithmic"] else "linear", xlim=layout.x, ylim=layout.y)
-    step = exponent = None
-    if chart["equal_aspect"]:
-        step, exponent = _shared_ticks(layout, width, height)
-    for way, axis, length, label in (
-        ("x", ax.xaxis, width, width + 40.0), ("y", ax.yaxis, height, height + _FOOT)
-    ):
-        fields = chart[way]
-        set_axis(axis, fields, fields["label"], _most(fields, way, length), label, exponent)
-        axis.get_major_locator().step = step
-        if fields["logarithmic"]:
+    locators = _ticks(chart["x"], "x", width), _ticks(chart["y"], "y", height)
+    exponent = None
+    if chart["equal_aspect"]:  # the same steps and one exponent
+        ticks = [locator.tick_values(*ends) for locator, ends in zip(locators, (layout.x, layout.y))]
+        step = max(row[1] - row[0] for row in ticks)
+        exponent = exponent_of(ticks[0] + ticks[1])
+        locators = MultipleLocator(step), MultipleLocator(step)
+    for way, axis, locator, space in (("x", ax.xaxis, locators[0], width + 40.0),
+                                      ("y", ax.yaxis, locators[1], height + _FOOT)):
+        set_axis(axis, chart[way], chart[way]["label"], locator, space, exponent)
+        if chart[way]["logarithmic"]:
             axis.grid(True, which="minor", color=style.FINE_GRID, linewidth=0.8 * PX)
         axis.grid(True, which="major")
+        if chart[way]["second"] is not None and chart[way]["second"]["factor"] != 0.0:
+            _add_second_scale(ax, chart[way], way, width if way == "x" else height)
+    ax.tick_params(which="minor", length=0.0)
     if layout.title:
         ax.set_title(layout.title, size=layout.title_size * PX, weight="bold", y=1.0,
                      pad=(layout.legend_height + layout.above + 7.0) * PX)
-    _add_second_scales(ax, chart, width, height)
 
 
-def _most(fields: dict, way: str, length: float, ceiling: int = 9):
+def _ticks(fields: dict, way: str, length: float, ceiling: int = 9) -> Ticks:
     if way == "y":
-        return lambda low, high: _Layout.most_up(length)
-    return lambda low, high: most_across(fields, length, low, high, ceiling)
+        return Ticks(fields, lambda low, high: most_up(length))
+    return Ticks(fields, lambda low, high: most_across(fields, length, low, high, ceiling))
 
 
-def _shared_ticks(layout: _Layout, width: float, height: float) -> Tuple[float, int]:
-    """Ticks of equal scales have the same step and one exponent."""
-    steps, sizes = [], []
-    for way, (low, high), length in (("x", layout.x, width), ("y", layout.y, height)):
-        most = min(9, _most(_LINEAR, way, length)(low, high))
-        ticks = linear_ticks(low, high, most, True)
-        steps.append(ticks[1] - ticks[0])
-        sizes += ticks
-    return max(steps), exponent_of(sizes)
-
-
-def _add_second_scales(ax, chart: dict, width: float, height: float) -> None:
-    for way, length in (("x", width), ("y", height)):
-        second = chart[way]["second"]
-        if second is None or second["factor"] == 0.0:
-            continue
-        factor = second["factor"]
-        functions = (lambda v, f=factor: v * f, lambda v, f=factor: v / f)
-        fields = {**chart[way], "degrees": False}
-        scale = (ax.secondary_xaxis("top", functions=functions) if way == "x"
-                 else ax.secondary_yaxis("right", functions=functions))
-        axis = scale.xaxis if way == "x" else scale.yaxis
-        # Its own limits are set when it is drawn.
-        (scale.set_xlim if way == "x" else scale.set_ylim)(
-            *(factor * end for end in (ax.get_xlim() if way == "x" else ax.get_ylim())))
-        set_axis(axis, fields, second["label"], _most(fields, way, length, 8), length)
-        axis.label.set_size(style.TICK * PX)
-        axis.set_tick_params(which="major", pad=3.0 * PX)
+def _add_second_scale(ax, fields: dict, way: str, length: float) -> None:
+    factor = fields["second"]["factor"]
+    functions = (lambda v: v * factor, lambda v: v / factor)
+    fields = {**fields, "degrees": False}
+    if way == "x":
+        scale = ax.secondary_xaxis("top", functions=functions)
+        scale.set_xlim(*(factor * end for end in ax.get_xlim()))  # its own are set when it is drawn
+        axis = scale.xaxis
+    else:
+        scale = ax.secondary_yaxis("right", functions=functions)
+        scale.set_ylim(*(factor * end for end in ax.get_ylim()))
+        axis = scale.yaxis
+    set_axis(axis, fields, fields["second"]["label"], _ticks(fields, way, length, 8), length)
+    axis.label.set_size(style.TICK * PX)
+    axis.set_tick_params(pad=3.0 * PX)

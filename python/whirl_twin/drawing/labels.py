@@ -134,11 +134,9 @@ def label_chart(ax, chart: dict, curves: List[Tuple[np.ndarray, float, bool, boo
     for y, _ in level:
         places.avoid_line(np.array([[0.0, y], [width, y]]), 1.0)
     for x, line in upright:
-        if line["label"]:
-            _label_upright(ax, places, x, line)
+        _name_line(ax, places, line, (x, 0.0), True)
     for y, line in level:
-        if line["label"]:
-            _label_level(ax, places, y, line)
+        _name_line(ax, places, line, (width, y), False)
     for note in chart["notes"]:
         x, y = on_sheet((note["x"], note["y"]))[0]
         if -1.0 <= x <= width + 1.0 and -1.0 <= y <= height + 1.0:
@@ -146,76 +144,56 @@ def label_chart(ax, chart: dict, curves: List[Tuple[np.ndarray, float, bool, boo
 
 
 def _annotate(
-    ax, text: str, at, coordinates, shift, rotated: bool, color: str, covers: bool, **more
+    ax, text: str, place: Rectangle, origin, at, coordinates="data", rotated=False, **more
 ) -> None:
-    """A text whose middle is `shift` [px] from a point; on white where it covers something."""
-    white = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.5}
+    """A text in a place; it stays as far from `at`, which is at `origin` [px]."""
+    shift = (place[0] + 0.5 * place[2] - origin[0], origin[1] - place[1] - 0.5 * place[3])
     ax.annotate(
-        text, xy=at, xycoords=coordinates, xytext=(shift[0] * style.PX, -shift[1] * style.PX),
-        textcoords="offset points", ha="center", va="center_baseline" if not rotated else "center",
-        rotation=90 if rotated else 0, size=style.NOTE * style.PX, color=color, zorder=5,
-        rotation_mode="anchor", annotation_clip=False,
-        bbox=white if covers else None, **more,
-    )
+        text, xy=at, xycoords=coordinates, xytext=(shift[0] * style.PX, shift[1] * style.PX),
+        textcoords="offset points", ha="center", va="center" if rotated else "center_baseline",
+        rotation=90 if rotated else 0, size=style.NOTE * style.PX, zorder=5,
+        rotation_mode="anchor", annotation_clip=False, **more)
 
 
-def _place_label(ax, places, line, beside, at, coordinates, origin) -> None:
+def _name_line(ax, places: LabelPlaces, line: dict, origin, upright: bool) -> None:
+    """Beside a vertical line, rotated and preferably high, or horizontal where that does not fit;
+    along a horizontal one, preferably to the right."""
+    if not line["label"]:
+        return
+    x, y = origin
+    length = style.text_width(line["label"], style.NOTE) + 2.0
+    beside: List[Rectangle] = []
+    if upright:
+        for top in np.arange(5.0, max(places.height - length, 6.0), 10.0):
+            beside += [(x - 3.0 - HEIGHT, top, HEIGHT, length), (x + 3.0, top, HEIGHT, length)]
+        for away in (3.0, 12.0, 24.0):  # farther away it would be ambiguous
+            for top in np.arange(5.0, max(places.height - HEIGHT, 6.0), 10.0):
+                beside += [(x + away, top, length, HEIGHT), (x - away - length, top, length, HEIGHT)]
+    else:
+        end = places.width - 5.0 - length
+        for left in np.arange(end, min(0.0, end - 1.0), -10.0):
+            beside += [(left, y - 3.0 - HEIGHT, length, HEIGHT), (left, y + 3.0, length, HEIGHT)]
     place = places.take(beside)
     covers = places.covered(place) > 1.0e3 + 10.0 * place[2] * place[3]  # more than by itself
-    centre = (place[0] + 0.5 * place[2], place[1] + 0.5 * place[3])
-    _annotate(
-        ax, line["label"], at, coordinates, (centre[0] - origin[0], centre[1] - origin[1]),
-        place[3] > place[2], style.darker(style.GREY, 0.25), covers,
-    )
-
-
-def _label_upright(ax, places: LabelPlaces, x: float, line: dict) -> None:
-    """At a vertical line: rotated, preferably high, or horizontal where that does not fit."""
-    length = style.text_width(line["label"], style.NOTE) + 2.0
-    beside: List[Rectangle] = []
-    y = 5.0
-    while not beside or y + length < places.height:
-        beside += [(x - 3.0 - HEIGHT, y, HEIGHT, length), (x + 3.0, y, HEIGHT, length)]
-        y += 10.0
-    for away in (3.0, 12.0, 24.0):  # farther away it would be ambiguous
-        for y in range(5, max(6, int(places.height - HEIGHT)), 10):
-            beside += [(x + away, y, length, HEIGHT), (x - away - length, y, length, HEIGHT)]
-    _place_label(ax, places, line, beside, (line["at"], 1.0), ("data", "axes fraction"), (x, 0.0))
-
-
-def _label_level(ax, places: LabelPlaces, y: float, line: dict) -> None:
-    """Along a horizontal line, preferably to the right."""
-    length = style.text_width(line["label"], style.NOTE) + 2.0
-    beside: List[Rectangle] = []
-    x = places.width - 5.0 - length
-    while not beside or x > 0.0:
-        beside += [(x, y - 3.0 - HEIGHT, length, HEIGHT), (x, y + 3.0, length, HEIGHT)]
-        x -= 10.0
-    _place_label(
-        ax, places, line, beside, (1.0, line["at"]), ("axes fraction", "data"), (places.width, y)
-    )
+    white = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.5}
+    at, coordinates = (((line["at"], 1.0), ("data", "axes fraction")) if upright
+                       else ((1.0, line["at"]), ("axes fraction", "data")))
+    _annotate(ax, line["label"], place, origin, at, coordinates, upright and place[2] == HEIGHT,
+              color=style.darker(style.GREY, 0.25), bbox=white if covers else None)
 
 
 def _note(ax, places: LabelPlaces, x: float, y: float, note: dict) -> None:
     """Beside its point or, with a thin line to it, a little farther away; else it is left out."""
-    lines = note["text"].split("\n")
     width = style.text_width(note["text"], style.NOTE) + 2.0
-    height = HEIGHT * len(lines)
-    around: List[Rectangle] = []
-    for away in (7.0, 13.0, 26.0, 40.0, 60.0, 85.0):
-        for across, down in ((1, 0), (-1, 0), (0, -1), (0, 1), (1, -1), (-1, -1), (1, 1), (-1, 1)):
-            around.append((
-                x + across * (away + 0.5 * width) - 0.5 * width,
-                y + down * (away + 0.5 * height) - 0.5 * height, width, height,
-            ))
+    height = HEIGHT * (note["text"].count("\n") + 1)
+    around = [(x + across * (away + 0.5 * width) - 0.5 * width,
+               y + down * (away + 0.5 * height) - 0.5 * height, width, height)
+              for away in (7.0, 13.0, 26.0, 40.0, 60.0, 85.0)
+              for across, down in ((1, 0), (-1, 0), (0, -1), (0, 1), (1, -1), (-1, -1), (1, 1), (-1, 1))]
     place = places.take(around, 0.0)
     if place is None:
         return
-    far = around.index(place) >= 16
     arrow = {"arrowstyle": "-", "color": style.GREY, "linewidth": 0.8 * style.PX, "shrinkA": 0.0,
              "shrinkB": (MARK + 1.0) * style.PX}
-    centre = (place[0] + 0.5 * width - x, place[1] + 0.5 * height - y)
-    _annotate(
-        ax, note["text"], (note["x"], note["y"]), "data", centre, False, style.BLACK, False,
-        **({"arrowprops": arrow} if far else {}),
-    )
+    _annotate(ax, note["text"], place, (x, y), (note["x"], note["y"]), color=style.BLACK,
+              arrowprops=arrow if around.index(place) >= 16 else None)

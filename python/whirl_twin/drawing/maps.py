@@ -12,16 +12,12 @@ from matplotlib.patches import Patch
 from . import style
 from .request import RequestError
 from .style import PX
-from .ticks import (data_range, exponent_of, linear_labels, linear_ticks, logarithmic_labels,
-                    most_across, set_axis, shown, ticks_of)
+from .ticks import (LINEAR, Ticks, data_range, labels_of, linear_ticks, most_across, set_axis,
+                    shown, ticks_of)
 
 _WIDTH, _HEIGHT = 800.0, 560.0  # px
 _CONTOUR_DASHES = ((), (7.0, 4.0), (2.5, 3.0), (9.0, 3.0, 2.0, 3.0))
 HOLE_NAME = "failed or undefined"
-
-
-def _most_up(low: float, high: float) -> int:
-    return 10
 
 
 def _levels(chart: dict, way: str) -> np.ndarray:
@@ -62,7 +58,8 @@ def draw_map(chart: dict, ax=None):
         names.append(HOLE_NAME)
     bar_ax = None
     if ax is not None:
-        style.add_axes_title(ax, chart["title"], names, style.size_of(ax)[0])
+        rows = style.legend_rows(names, style.size_of(ax)[0])
+        style.add_axes_title(ax, chart["title"], style.LEGEND_ROW * rows + 12.0)
     else:
         sheet, ax, bar_ax = _sheet(chart, y, names)
     _set_axes(ax, chart, x, y)
@@ -87,26 +84,17 @@ def _under():
 
 
 def _sheet(chart: dict, y: np.ndarray, names: list) -> Tuple:
-    widest = max(style.text_width(label, style.TICK) for label in _y_labels(chart, y))
+    labels, _ = labels_of(chart["y"], ticks_of(chart["y"], float(y[0]), float(y[-1]), 10, True))
+    widest = max((style.text_width(label, style.TICK) for label in labels), default=0.0)
     label, size = style.fitted(chart["y"]["label"], style.LABEL, _HEIGHT - 60.0)
     left = 24.0 + style.height_of(label, size) + widest
     width = _WIDTH - 130.0 - left
     rows = style.legend_rows(names, width)
     top = style.title_space(chart["title"], _WIDTH) + style.LEGEND_ROW * rows + 16.0
     height = _HEIGHT - 44.0 - 58.0
-    sheet = style.sheet(
-        _WIDTH, top + height + 58.0, chart["title"], chart["description"])
-    style.add_title(sheet, chart["title"])
+    sheet = style.sheet(_WIDTH, top + height + 58.0, chart)
     ax = style.add_axes(sheet, left, top, width, height)
     return sheet, ax, style.add_axes(sheet, left + width + 22.0, top, 20.0, height)
-
-
-def _y_labels(chart: dict, y: np.ndarray) -> list:
-    fields = chart["y"]
-    ticks = ticks_of(fields, float(y[0]), float(y[-1]), 10, True) or [float(y[0])]
-    if fields["logarithmic"]:
-        return logarithmic_labels(ticks)
-    return linear_labels(ticks, exponent_of(ticks))
 
 
 def _set_axes(ax, chart: dict, x: np.ndarray, y: np.ndarray) -> None:
@@ -115,8 +103,8 @@ def _set_axes(ax, chart: dict, x: np.ndarray, y: np.ndarray) -> None:
         fields = chart[way]
         ends = (at[-1], at[0]) if fields["inverted"] else (at[0], at[-1])
         ax.set(**{way + "scale": "log" if fields["logarithmic"] else "linear", way + "lim": ends})
-        most = (lambda a, b, f=fields: most_across(f, width, a, b)) if way == "x" else _most_up
-        set_axis(axis, fields, fields["label"], most, length + 40.0)
+        most = (lambda a, b, f=fields: most_across(f, width, a, b)) if way == "x" else lambda a, b: 10
+        set_axis(axis, fields, fields["label"], Ticks(fields, most), length + 40.0)
 
 
 def _draw_contours(ax, chart: dict, x: np.ndarray, y: np.ndarray, values) -> None:
@@ -135,8 +123,8 @@ def _draw_contours(ax, chart: dict, x: np.ndarray, y: np.ndarray, values) -> Non
 
 def _set_bar(bar, chart: dict, limits: Tuple[float, float]) -> None:
     bar.minorticks_off()
-    fields = {"logarithmic": False, "degrees": False}
-    set_axis(bar.ax.yaxis, fields, chart["label"], lambda a, b: 9, style.size_of(bar.ax)[1] + 40.0)
+    ticks = Ticks(LINEAR, lambda a, b: 9)
+    set_axis(bar.ax.yaxis, LINEAR, chart["label"], ticks, style.size_of(bar.ax)[1] + 40.0)
     bar.outline.set_edgecolor(style.GREY)
     for contour in chart["contours"]:
         if limits[0] <= contour["at"] <= limits[1]:

@@ -1,13 +1,13 @@
 """Fields of figures and pages: their types, defaults and checks.
 
-A check returns a copy with all defaults filled in, lists of numbers as NumPy arrays (null: NaN)
-and texts without characters that XML forbids. An error names the field: "figure.charts[0].x: ...".
+checked() returns a copy with all defaults, lists of numbers as NumPy arrays (null: NaN) and texts
+without characters that XML forbids. An error names the field: "figure.charts[0].x: ...".
 """
 
 from __future__ import annotations
 
 import re
-from typing import Any, Callable, Dict, Mapping, Optional
+from typing import Any, Callable, Dict, Mapping
 
 Check = Callable[[Any, str], Any]
 REQUIRED = object()
@@ -30,55 +30,66 @@ class MissingLibrary(RuntimeError):
         return cls(f"figures need a library that cannot be loaded: {error}")
 
 
+def require(good: bool, where: str, what: str, value: Any) -> None:
+    """Raises RequestError with what is required, and the value that was found."""
+    if not good:
+        found = "nothing" if value is None else repr(value)
+        found = found if len(found) <= 60 else found[:57] + "..."
+        raise RequestError(f"{where}: {what} is required, found {found}")
+
+
+def checked(form: Any, value: Any, where: str) -> Any:
+    """A value in a form: a check, a list of one form, or a dictionary of fields.
+
+    Of a field that may be missing the form is a pair: form, default.
+    """
+    if isinstance(form, list):
+        require(isinstance(value, (list, tuple)), where, "a list", value)
+        return [checked(form[0], item, f"{where}[{i}]") for i, item in enumerate(value)]
+    if not isinstance(form, dict):
+        return form(value, where)
+    require(isinstance(value, Mapping), where, "a set of fields", value)
+    for name in value:
+        require(name in form, where, f"one of the fields {', '.join(form)}", name)
+    result = {}
+    for name, field in form.items():
+        of_field, default = field if isinstance(field, tuple) else (field, REQUIRED)
+        given = value.get(name, default)
+        require(given is not REQUIRED, f"{where}.{name}", "a value", None)
+        # Defaults are checked too: they become what a given value becomes.
+        result[name] = checked(of_field, given, f"{where}.{name}")
+    return result
+
+
 # Control characters, lone surrogates and noncharacters are not allowed in XML.
 _FORBIDDEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 
 
-def found(value: Any) -> str:
-    """A short text of what was found."""
-    text = repr(value)
-    return "nothing" if value is None else text if len(text) <= 60 else text[:57] + "..."
-
-
 def text(value: Any, where: str) -> str:
-    if not isinstance(value, str):
-        raise RequestError(f"{where}: a text is required, found {found(value)}")
+    require(isinstance(value, str), where, "a text", value)
     return _FORBIDDEN.sub(" ", value.replace("\r\n", "\n").replace("\t", " "))
 
 
 def boolean(value: Any, where: str) -> bool:
-    if value is not True and value is not False:
-        raise RequestError(f"{where}: true or false is required, found {found(value)}")
+    require(isinstance(value, bool), where, "true or false", value)
     return value
 
 
-def number_or_gap(value: Any, where: str) -> float:
+def number(value: Any, where: str) -> float:
     """A number; null: NaN."""
     if value is None:
         return float("nan")
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise RequestError(f"{where}: a number is required, found {found(value)}")
+    require(isinstance(value, (int, float)) and not isinstance(value, bool), where, "a number", value)
     try:
         return float(value)
     except OverflowError:
         return float("inf") if value > 0 else float("-inf")
 
 
-def number(value: Any, where: str) -> float:
-    """A finite number."""
-    result = number_or_gap(value, where)
-    if not abs(result) < float("inf"):
-        raise RequestError(f"{where}: a finite number is required, found {found(value)}")
-    return result
-
-
 def number_from(low: float, high: float) -> Check:
     def check(value: Any, where: str) -> float:
         result = number(value, where)
-        if not low <= result <= high:
-            raise RequestError(
-                f"{where}: a number from {low:g} to {high:g} is required, found {found(value)}"
-            )
+        require(low <= result <= high, where, f"a number from {low:g} to {high:g}", value)
         return result
 
     return check
@@ -87,41 +98,28 @@ def number_from(low: float, high: float) -> Check:
 def whole(low: int, high: int) -> Check:
     def check(value: Any, where: str) -> int:
         result = number_from(low, high)(value, where)
-        if result != int(result):
-            raise RequestError(f"{where}: a whole number is required, found {found(value)}")
+        require(result == int(result), where, "a whole number", value)
         return int(result)
 
     return check
 
 
 def color(value: Any, where: str) -> str:
-    if not isinstance(value, str) or not re.fullmatch("#[0-9a-fA-F]{6}", value):
-        raise RequestError(f"{where}: a colour as #rrggbb is required, found {found(value)}")
+    good = isinstance(value, str) and re.fullmatch("#[0-9a-fA-F]{6}", value) is not None
+    require(good, where, "a colour as #rrggbb", value)
     return value.lower()
 
 
 def one_of(*values: str) -> Check:
     def check(value: Any, where: str) -> str:
-        if value not in values:
-            raise RequestError(
-                f"{where}: one of {', '.join(values)} is required, found {found(value)}"
-            )
+        require(value in values, where, f"one of {', '.join(values)}", value)
         return value
 
     return check
 
 
-def optional(check: Check) -> Check:
-    return lambda value, where: None if value is None else check(value, where)
-
-
-def list_of(check: Check) -> Check:
-    def checked(value: Any, where: str) -> list:
-        if not isinstance(value, (list, tuple)):
-            raise RequestError(f"{where}: a list is required, found {found(value)}")
-        return [check(item, f"{where}[{i}]") for i, item in enumerate(value)]
-
-    return checked
+def optional(form: Any) -> Check:
+    return lambda value, where: None if value is None else checked(form, value, where)
 
 
 def numbers(value: Any, where: str) -> Any:
@@ -131,21 +129,19 @@ def numbers(value: Any, where: str) -> Any:
     except ImportError as error:
         raise MissingLibrary.of(error) from error
     if isinstance(value, numpy.ndarray):
-        if value.ndim != 1 or value.dtype.kind not in "fiu":
-            raise RequestError(f"{where}: a row of numbers is required, found {found(value)}")
+        good = value.ndim == 1 and value.dtype.kind in "fiu"
+        require(good, where, "a row of numbers", value)
         return value.astype(float)
-    if not isinstance(value, (list, tuple)):
-        raise RequestError(f"{where}: a list of numbers is required, found {found(value)}")
+    require(isinstance(value, (list, tuple)), where, "a list of numbers", value)
     if set(map(type, value)) <= {float, type(None)}:
         return numpy.array(value, dtype=float)
-    return numpy.array([number_or_gap(x, f"{where}[{i}]") for i, x in enumerate(value)])
+    return numpy.array(checked([number], value, where))
 
 
 def point(value: Any, where: str) -> Any:
     """x, y, z as an array."""
     result = numbers(value, where)
-    if len(result) != 3:
-        raise RequestError(f"{where}: three numbers (m) are required, found {found(value)}")
+    require(len(result) == 3, where, "a point of three numbers (m)", value)
     return result
 
 
@@ -153,165 +149,106 @@ def points(value: Any, where: str) -> Any:
     """An array of shape (n, 3)."""
     import numpy
 
-    return numpy.array(list_of(point)(value, where)).reshape(-1, 3)
+    return numpy.array(checked([point], value, where)).reshape(-1, 3)
 
 
-def record(fields: Mapping[str, Any]) -> Check:
-    """A dictionary; of each field its check, or the check and a default."""
-
-    def check(value: Any, where: str) -> Dict[str, Any]:
-        if not isinstance(value, Mapping):
-            raise RequestError(f"{where}: a set of fields is required, found {found(value)}")
-        for name in value:
-            if name not in fields:
-                raise RequestError(
-                    f"{where}: one of the fields {', '.join(fields)} is required, "
-                    f"found {found(name)}"
-                )
-        result = {}
-        for name, field in fields.items():
-            of_field, default = field if isinstance(field, tuple) else (field, REQUIRED)
-            if name not in value and default is REQUIRED:
-                raise RequestError(f"{where}.{name}: a value is required, found nothing")
-            # Defaults are checked too: they become what a given value becomes.
-            result[name] = of_field(value.get(name, default), f"{where}.{name}")
-        return result
-
-    return check
+def _series(value: Any, where: str) -> Dict[str, Any]:
+    result = checked(_SERIES, value, where)
+    sizes = len(result["x"]), len(result["y"])
+    if sizes[0] != sizes[1]:
+        raise RequestError(
+            f"{where}: x and y of equal length are required, found {sizes[0]} and {sizes[1]}")
+    return result
 
 
 _TEXT = (text, "")
 _NO = (boolean, False)
-
-AXIS = record({
-    "label": _TEXT, "logarithmic": _NO, "tight": _NO, "degrees": _NO, "inverted": _NO,
-    "second": (optional(record({"label": _TEXT, "factor": number})), None),
-})
-_AXIS = (AXIS, {})
-_PEN = record({
-    "color": color, "width": (number_from(0.1, 100.0), 1.0),
-    "dash": (list_of(number_from(0.0, 1000.0)), []),
-})
-_REFERENCES = (list_of(record({"at": number_or_gap, "label": _TEXT})), [])
-
-
-def _series(value: Any, where: str) -> Dict[str, Any]:
-    result = _SERIES(value, where)
-    if len(result["x"]) != len(result["y"]):
-        raise RequestError(
-            f"{where}: x and y of equal length are required, found {len(result['x'])} and "
-            f"{len(result['y'])}"
-        )
-    return result
-
-
-_SERIES = record({
+_SECOND = {"label": _TEXT, "factor": number_from(-1.0e300, 1.0e300)}
+_AXIS = ({"label": _TEXT, "logarithmic": _NO, "tight": _NO, "degrees": _NO, "inverted": _NO,
+          "second": (optional(_SECOND), None)}, {})
+_PEN = {"color": color, "width": (number_from(0.1, 100.0), 1.0),
+        "dash": ([number_from(0.0, 1000.0)], [])}
+_REFERENCES = ([{"at": number, "label": _TEXT}], [])
+_SERIES = {
     "name": _TEXT, "x": numbers, "y": numbers, "pen": (optional(_PEN), None),
     "line": (boolean, True), "marks": (one_of("none", "dots", "rings"), "none"),
     "fill": (optional(color), None),
-})
-CHART = record({
-    "title": _TEXT, "x": _AXIS, "y": _AXIS, "series": (list_of(_series), []),
+}
+_CHART = {
+    "title": _TEXT, "x": _AXIS, "y": _AXIS, "series": ([_series], []),
     "vertical": _REFERENCES, "horizontal": _REFERENCES,
-    "bands": (list_of(record(
-        {"name": _TEXT, "low": number_or_gap, "high": number_or_gap, "color": color})), []),
-    "notes": (list_of(record({"x": number_or_gap, "y": number_or_gap, "text": _TEXT})), []),
-    "equal_aspect": _NO,
-})
-_POSITIVE = (number_or_gap, 0.0)
+    "bands": ([{"name": _TEXT, "low": number, "high": number, "color": color}], []),
+    "notes": ([{"x": number, "y": number, "text": _TEXT}], []), "equal_aspect": _NO,
+}
+_SIZE = (number, 0.0)
 _ROLE = (one_of("body", "mass", "support", "spring", "mark"), "body")
-SKETCH = record({
-    "rods": (list_of(record({"from": point, "to": point, "radius": _POSITIVE, "role": _ROLE})), []),
-    "balls": (list_of(record({"at": point, "radius": _POSITIVE, "role": _ROLE})), []),
-    "discs": (list_of(record({
-        "at": point, "axis": point, "radius": _POSITIVE, "thickness": _POSITIVE,
-        "angle": _POSITIVE, "role": _ROLE})), []),
-    "boxes": (list_of(record({"at": point, "size": point, "pitch": _POSITIVE, "role": _ROLE})), []),
-    "springs": (list_of(record({"from": point, "to": point, "radius": _POSITIVE})), []),
-    "dampers": (list_of(record({"from": point, "to": point, "radius": _POSITIVE})), []),
-    "arrows": (list_of(record({"from": point, "to": point})), []),
-    "lines": (list_of(record({"points": points, "role": _ROLE})), []),
-    "size": (number_or_gap, 1.0), "height": _POSITIVE, "centre": (point, (0.0, 0.0, 0.0)),
-    "spatial": _NO,
-})
-_BAR = record({
-    "value": number_or_gap, "low": (number_or_gap, None), "high": (number_or_gap, None),
-})
+_BAR = {"from": point, "to": point, "radius": _SIZE}
+_SKETCH = {
+    "rods": ([{**_BAR, "role": _ROLE}], []),
+    "balls": ([{"at": point, "radius": _SIZE, "role": _ROLE}], []),
+    "discs": ([{"at": point, "axis": point, "radius": _SIZE, "thickness": _SIZE, "angle": _SIZE,
+                "role": _ROLE}], []),
+    "boxes": ([{"at": point, "size": point, "pitch": _SIZE, "role": _ROLE}], []),
+    "springs": ([_BAR], []), "dampers": ([_BAR], []), "arrows": ([{"from": point, "to": point}], []),
+    "lines": ([{"points": points, "role": _ROLE}], []),
+    "size": (number, 1.0), "height": _SIZE, "centre": (point, (0.0, 0.0, 0.0)), "spatial": _NO,
+}
 _SHEET = {"kind": text, "title": _TEXT, "description": _TEXT}
-FIGURES = {
-    "charts": record({
-        **_SHEET, "columns": (whole(1, 12), 1), "width": (whole(200, 5000), 800),
-        "chart_height": (whole(120, 5000), 460), "charts": list_of(CHART)}),
-    "bars": record({
-        **_SHEET, "subtitle": _TEXT, "x": _AXIS, "names": (list_of(text), []),
-        "groups": list_of(record({"name": _TEXT, "bars": list_of(_BAR)})),
-        "base": (number, 0.0)}),
-    "map": record({
-        **_SHEET, "x": _AXIS, "y": _AXIS, "label": _TEXT, "x_levels": numbers, "y_levels": numbers,
-        "values": list_of(numbers), "contours": _REFERENCES}),
-    "sketch": record({
-        **_SHEET, "sketch": SKETCH, "ghosts": (list_of(SKETCH), []), "trace": (points, []),
-        "orbits": (list_of(points), []), "note": _TEXT}),
+_FIGURES = {
+    "charts": {**_SHEET, "columns": (whole(1, 12), 1), "width": (whole(200, 5000), 800),
+               "chart_height": (whole(120, 5000), 460), "charts": [_CHART]},
+    "bars": {**_SHEET, "subtitle": _TEXT, "x": _AXIS, "names": ([text], []),
+             "groups": [{"name": _TEXT, "bars": [
+                 {"value": number, "low": (number, None), "high": (number, None)}]}],
+             "base": (number_from(-1.0e300, 1.0e300), 0.0)},
+    "map": {**_SHEET, "x": _AXIS, "y": _AXIS, "label": _TEXT, "x_levels": numbers,
+            "y_levels": numbers, "values": [numbers], "contours": _REFERENCES},
+    "sketch": {**_SHEET, "sketch": _SKETCH, "ghosts": ([_SKETCH], []), "trace": (points, []),
+               "orbits": ([points], []), "note": _TEXT},
 }
 
 
-def checked_figure(value: Any, where: str) -> Dict[str, Any]:
+def figure(value: Any, where: str) -> Dict[str, Any]:
     """A figure with all its fields."""
     kind = value.get("kind") if isinstance(value, Mapping) else None
-    if not isinstance(kind, str) or kind not in FIGURES:
-        raise RequestError(
-            f"{where}.kind: one of {', '.join(FIGURES)} is required, found {found(kind)}"
-        )
-    return FIGURES[kind](value, where)
+    one_of(*_FIGURES)(kind, f"{where}.kind")
+    return checked(_FIGURES[kind], value, where)
 
 
 def _cell(value: Any, where: str) -> Dict[str, str]:
-    if isinstance(value, str):
-        return {"text": text(value, where), "class": ""}
-    return _MARKED_CELL(value, where)
+    return checked({"text": text, "class": (one_of("", "danger", "warning", "info"), "")},
+                   {"text": value} if isinstance(value, str) else value, where)
 
 
-_MARKED_CELL = record({"text": text, "class": (one_of("", "danger", "warning", "info"), "")})
-_TABLE = record({"head": (list_of(text), []), "rows": list_of(list_of(_cell))})
-_PARTS: Dict[str, Check] = {
-    "section": text, "part": text, "text": text, "list": list_of(text), "table": _TABLE,
-    "figure": checked_figure,
+_TABLE = {"head": ([text], []), "rows": [[_cell]]}
+_PARTS: Dict[str, Any] = {
+    "section": text, "part": text, "text": text, "list": [text], "table": _TABLE, "figure": figure,
 }
 
 
 def _part(value: Any, where: str) -> Dict[str, Any]:
-    if not isinstance(value, Mapping) or len(value) != 1 or next(iter(value)) not in _PARTS:
-        raise RequestError(
-            f"{where}: one of the fields {', '.join(_PARTS)} is required, found {found(value)}"
-        )
+    good = isinstance(value, Mapping) and len(value) == 1 and next(iter(value)) in _PARTS
+    require(good, where, f"one of the fields {', '.join(_PARTS)}", value)
     kind, content = next(iter(value.items()))
-    return {"kind": kind, "content": _PARTS[kind](content, f"{where}.{kind}")}
+    return {"kind": kind, "content": checked(_PARTS[kind], content, f"{where}.{kind}")}
 
 
 def _fact(value: Any, where: str) -> list:
-    result = list_of(text)(value, where)
-    if len(result) != 2:
-        raise RequestError(f"{where}: a name and a value are required, found {found(value)}")
+    result = checked([text], value, where)
+    require(len(result) == 2, where, "a name and a value", value)
     return result
 
 
-_PAGE = record({
-    "title": text, "summary": (list_of(text), []), "facts": (list_of(_fact), []),
-    "parts": (list_of(_part), []),
-})
+#: A page with all its fields; its parts as {"kind", "content"}.
+PAGE = {"title": text, "summary": ([text], []), "facts": ([_fact], []), "parts": ([_part], [])}
 
 
-def checked_page(value: Any, where: str) -> Dict[str, Any]:
-    """A page with all its fields; its parts as {"kind", "content"}."""
-    return _PAGE(value, where)
+def drawing(value: Any, where: str) -> Dict[str, Any]:
+    """One entry of a request: where its file goes, its format, and its figure, figures or page.
 
-
-def checked_drawing(value: Any, where: str) -> Dict[str, Any]:
-    """One entry of a request: where its file goes, its format, and its figure or page.
-
-    What it holds stays as it is: draw() and page_html() check it.
+    What it holds is unchecked: draw(), overlaid() and page_html() check it.
     """
-    kind: Optional[str] = value.get("format") if isinstance(value, Mapping) else None
+    kind = value.get("format") if isinstance(value, Mapping) else None
     one_of("svg", "png", "pdf", "html")(kind, f"{where}.format")
-    held = "page" if kind == "html" else "figure"
-    return record({"path": text, "format": text, held: lambda content, _: content})(value, where)
+    content = "page" if kind == "html" else "figures" if "figures" in value else "figure"
+    return checked({"path": text, "format": text, content: lambda held, _: held}, value, where)

@@ -43,14 +43,10 @@ class View:
     def extent(self, sketch: dict) -> List[np.ndarray]:
         """Points on the sheet that surround all parts."""
         spots = []
-        for part in sketch["rods"] + sketch["springs"] + sketch["dampers"]:
-            for end in (part["from"], part["to"]):
-                spots += [self.at(end)[None] - part["radius"], self.at(end)[None] + part["radius"]]
-        for arrow in sketch["arrows"]:
-            spots.append(self.at([arrow["from"], arrow["to"]]))
-        for ball in sketch["balls"]:
-            spots += [self.at(ball["at"])[None] - ball["radius"],
-                      self.at(ball["at"])[None] + ball["radius"]]
+        for kind in ("rods", "springs", "dampers", "arrows", "balls"):
+            for part in sketch[kind]:
+                ends = self.at([part["at"]] if kind == "balls" else [part["from"], part["to"]])
+                spots += [ends - part.get("radius", 0.0), ends + part.get("radius", 0.0)]
         for disc in sketch["discs"]:
             spots += [self.at(rim(disc, along)) for along in (-0.5, 0.5)]
         for box in sketch["boxes"]:
@@ -81,13 +77,12 @@ def _key(point: np.ndarray) -> Tuple[float, ...]:
     return tuple(float(f"{x:.6g}") + 0.0 for x in point)
 
 
-def _thickest_at_ends(rods: List[dict]) -> dict:
-    """Of each end of a rod: how many rods meet there, and the largest and least radius."""
+def _radii_at_ends(rods: List[dict]) -> dict:
+    """Of each end of a rod the radii of all rods that meet there."""
     ends: dict = {}
     for rod in rods:
         for at in (rod["from"], rod["to"]):
-            count, most, least = ends.get(_key(at), (0, 0.0, math.inf))
-            ends[_key(at)] = (count + 1, max(most, rod["radius"]), min(least, rod["radius"]))
+            ends.setdefault(_key(at), []).append(rod["radius"])
     return ends
 
 
@@ -137,7 +132,7 @@ class PartDrawing:
     def draw(self, sketch: dict, pale: float) -> None:
         """All parts; `pale`: share of white in every colour."""
         self._pale = pale
-        self._ends = _thickest_at_ends(sketch["rods"]) if sketch["spatial"] else {}
+        self._ends = _radii_at_ends(sketch["rods"]) if sketch["spatial"] else {}
         for line in sketch["lines"]:
             self._line(line)
         parts: List[Tuple[float, Callable[[], None]]] = []
@@ -152,8 +147,8 @@ class PartDrawing:
             add("rods", self._cylinder)
         else:
             # Rods at one depth share an outline: a beam of many rods appears as one piece.
-            add("rods", self._rod_outline)
-            add("rods", self._rod)
+            add("rods", self._bar_outline)
+            add("rods", self._bar)
         add("discs", self._disc)
         add("dampers", self._damper)
         add("springs", self._spring)
@@ -187,18 +182,19 @@ class PartDrawing:
         half = radius * np.column_stack((np.cos(turns), np.sin(turns)))
         return np.concatenate((end + half, start - half))
 
-    def _bar_outline(self, start, end, radius: float, color: str) -> None:
-        self._polygon(self._capsule(start, end, radius), color, self._outline(color), 2.0 * _THIN)
+    def _bar_outline(self, bar: dict) -> None:
+        color = self._color(bar["role"])
+        ends = self._view.at([bar["from"], bar["to"]])
+        self._polygon(self._capsule(*ends, bar["radius"]), color, self._outline(color), 2.0 * _THIN)
 
-    def _bar(self, start, end, radius: float, color: str) -> None:
+    def _bar(self, bar: dict) -> None:
+        color, radius = self._color(bar["role"]), bar["radius"]
+        start, end = self._view.at([bar["from"], bar["to"]])
         self._polygon(self._capsule(start, end, radius), color, color, 0.0)
         if radius * self._scale > 2.5:  # light along a cylinder
-            way = end - start
-            length = max(math.hypot(*way), 1.0e-300)
-            normal = np.array([-way[1], way[0]]) / length
-            if normal[1] < 0.0 or (normal[1] == 0.0 and normal[0] > 0.0):
-                normal = -normal
-            up = 0.35 * radius * normal
+            way = (end - start) / max(math.hypot(*(end - start)), 1.0e-300)
+            up = 0.35 * radius * np.array([-way[1], way[0]])
+            up = up if up[1] > 0.0 or up[1] == 0.0 and up[0] <= 0.0 else -up
             self._polygon(self._capsule(start + up, end + up, 0.22 * radius),
                           paler(color, 0.45), color, 0.0)
 
@@ -231,8 +227,8 @@ class PartDrawing:
 
     def _is_end(self, at: np.ndarray, radius: float) -> bool:
         """Has a bar a visible face there: no neighbour, or a thinner one?"""
-        count, most, least = self._ends[_key(at)]
-        return count == 1 or most > 1.001 * least and radius >= most
+        radii = self._ends[_key(at)]
+        return len(radii) == 1 or max(radii) > 1.001 * min(radii) and radius >= max(radii)
 
     def _lines_along(self, plate: dict, along: np.ndarray, heights) -> np.ndarray:
         """Where lines along the visible side of a cylinder begin, at heights [radii] on the sheet."""
@@ -247,23 +243,15 @@ class PartDrawing:
             starts.append(self._view.at(min(points, key=self._view.depth)))
         return np.array(starts)
 
-    def _rod_outline(self, rod: dict) -> None:
-        ends = self._view.at([rod["from"], rod["to"]])
-        self._bar_outline(*ends, rod["radius"], self._color(rod["role"]))
-
-    def _rod(self, rod: dict) -> None:
-        ends = self._view.at([rod["from"], rod["to"]])
-        self._bar(*ends, rod["radius"], self._color(rod["role"]))
-
     def _ball(self, ball: dict) -> None:
         color = self._color(ball["role"])
         centre = self._view.at(ball["at"])
         radius = max(ball["radius"], 1.1 / self._scale)
-        self._ax.add_patch(Circle(centre, radius, facecolor=color, edgecolor=self._outline(color),
-                                  linewidth=_THIN * PX, zorder=self.next_order()))
-        self._ax.add_patch(Circle(centre + radius * np.array([-0.3, 0.3]), 0.22 * radius,
-                                  facecolor=paler(color, 0.55), linewidth=0.0,
-                                  zorder=self.next_order()))
+        for at, size, fill, width in ((centre, radius, color, _THIN),
+                                      (centre + (-0.3 * radius, 0.3 * radius), 0.22 * radius,
+                                       paler(color, 0.55), 0.0)):
+            self._ax.add_patch(Circle(at, size, facecolor=fill, edgecolor=self._outline(color),
+                                      linewidth=width * PX, zorder=self.next_order()))
 
     def _disc(self, disc: dict) -> None:
         """A round plate with its mark, a spoke, on the near side."""
@@ -308,13 +296,12 @@ class PartDrawing:
         self._stroke(np.vstack((start, wire, end)), paler(_SPRING_WIRE, self._pale), width)
 
     def _damper(self, damper: dict) -> None:
-        start, end, length, along = self._frame(damper)
-        pot = min(0.5, 10.0 * damper["radius"] / length)
-        for to, radius, role in ((end, 0.3 * damper["radius"], "body"),
-                                 (start + pot * (end - start), damper["radius"], "support")):
-            color = self._color(role)
-            self._bar_outline(start, to, radius, color)
-            self._bar(start, to, radius, color)
+        pot = min(0.5, 10.0 * damper["radius"] / self._frame(damper)[2])
+        middle = damper["from"] + pot * (damper["to"] - damper["from"])
+        for part in ({**damper, "radius": 0.3 * damper["radius"], "role": "body"},
+                     {**damper, "to": middle, "role": "support"}):
+            self._bar_outline(part)
+            self._bar(part)
 
     def _arrow(self, arrow: dict) -> None:
         start, end, length, along = self._frame(arrow)

@@ -38,7 +38,7 @@ def draw_sketch(picture: dict, ax=None):
         ax.set_xlim(middle[0] - half[0], middle[0] + half[0])
         ax.set_ylim(middle[1] - half[1], middle[1] + half[1])
         if picture["title"]:
-            ax.set_title(picture["title"], size=style.CHART_TITLE * PX, weight="bold")
+            style.add_axes_title(ax, picture["title"], 6.0)
     drawing = PartDrawing(ax, view, scale)
     for ghost in reversed(picture["ghosts"]):
         drawing.draw(ghost, _GHOST)
@@ -89,9 +89,7 @@ def _sheet(picture: dict, low: np.ndarray, high: np.ndarray, width: float, heigh
     foot = _FOOT + (style.height_of(note, size) + 4.0 if below else 0.0)
     plot_height = scale * height
     sheet_height = top + plot_height + 0.5 * _MARGIN + foot
-    sheet = style.sheet(round(sheet_width), round(sheet_height), picture["title"],
-                        picture["description"])
-    style.add_title(sheet, picture["title"])
+    sheet = style.sheet(round(sheet_width), round(sheet_height), picture)
     ax = style.add_axes(sheet, 0.0, 0.0, round(sheet_width), round(sheet_height))
     ax.set_zorder(-1)
     ax.set_axis_off()
@@ -103,11 +101,11 @@ def _sheet(picture: dict, low: np.ndarray, high: np.ndarray, width: float, heigh
     ax.set_ylim(upper - round(sheet_height) / scale, upper)
     y = top + plot_height + 0.5 * _MARGIN + 16.0
     _draw_bar(ax, left, upper, scale, y, length)
-    style.add_text(sheet, bar_end + 9.0, y, label, style.TICK, color=style.GREY)
+    style.add_text(sheet, bar_end + 9.0, y, label, style.TICK)
     if below:
-        style.add_text(sheet, _MARGIN, y + 14.0, note, size, va="top", color=style.GREY)
+        style.add_text(sheet, _MARGIN, y + 14.0, note, size, va="top")
     elif note:
-        style.add_text(sheet, sheet_width - _MARGIN, y, note, size, "right", color=style.GREY)
+        style.add_text(sheet, sheet_width - _MARGIN, y, note, size, ha="right")
     return sheet, ax, scale
 
 

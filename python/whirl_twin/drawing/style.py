@@ -1,18 +1,21 @@
-"""Colours, letter sizes and settings of all figures. Sizes are in px: 1/100 inch."""
+"""Colours, letter sizes and places in all figures. Sizes are in px: 1/100 inch."""
 
 from __future__ import annotations
 
 import contextlib
-import contextvars
 import functools
 import math
+import pathlib
 import textwrap
 import warnings
-from typing import Iterator, List, Optional, Tuple
+from typing import Iterator, List, Optional, Sequence, Tuple
 
-import matplotlib
+import matplotlib.style
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties, findfont, get_font
+from matplotlib.legend import Legend
+from matplotlib.transforms import ScaledTranslation
 
 PX = 0.72  # points in a px
 DPI = 100  # px in an inch
@@ -27,7 +30,6 @@ ORANGE = "#e69f00"
 SKY_BLUE = "#56b4e9"
 BLACK = "#212126"
 GREY = "#6b7078"
-GRID = "#e0e2e5"
 FINE_GRID = "#eff0f2"
 HOLE = "#cccccc"
 PALETTE = (BLUE, VERMILION, GREEN, PURPLE, SKY_BLUE, ORANGE, BLACK)
@@ -42,74 +44,30 @@ LABEL = 14.0
 TICK = 13.0
 NOTE = 12.0
 LINE = 1.8  # width of a curve
+LEGEND_ROW = 20.0
+_SAMPLE = 32.0  # of a line in a legend, with the space behind it
+_LEGEND_GAP = 22.0  # between columns of a legend
 
-_SETTINGS = {
-    "text.parse_math": False,  # "$" in a label is a dollar
-    "text.color": BLACK,
-    "svg.fonttype": "none",  # text stays text
-    "svg.hashsalt": "whirl_twin",
-    "pdf.fonttype": 42,
-    "figure.dpi": DPI,
-    "axes.edgecolor": GREY,
-    "axes.labelcolor": BLACK,
-    "axes.linewidth": 1.2 * PX,
-    "axes.axisbelow": True,
-    "axes.labelsize": LABEL * PX,
-    "axes.labelpad": 4.5 * PX,
-    "axes.titlecolor": BLACK,
-    "grid.color": GRID,
-    "grid.linewidth": 1.0 * PX,
-    "lines.solid_capstyle": "round",
-    "lines.solid_joinstyle": "round",
-    "lines.dash_capstyle": "butt",
-    "lines.scale_dashes": False,  # dashes are in points
-    "xtick.color": GREY,
-    "ytick.color": GREY,
-    "xtick.labelcolor": BLACK,
-    "ytick.labelcolor": BLACK,
-    "xtick.labelsize": TICK * PX,
-    "ytick.labelsize": TICK * PX,
-    "xtick.major.size": 4.0 * PX,
-    "ytick.major.size": 4.0 * PX,
-    "xtick.major.pad": 4.0 * PX,
-    "ytick.major.pad": 4.0 * PX,
-}
-
-
-_applied = contextvars.ContextVar("applied", default=False)
+_SETTINGS = pathlib.Path(__file__).with_name("templates") / "figure.mplstyle"
 
 
 @contextlib.contextmanager
 def context() -> Iterator[None]:
     """Settings of whirl_twin's figures; those of the user's matplotlibrc do not apply inside."""
-    if _applied.get():
-        yield
-        return
-    token = _applied.set(True)
-    with matplotlib.rc_context(), warnings.catch_warnings():
+    with matplotlib.style.context(_SETTINGS, after_reset=True), warnings.catch_warnings():
         # Letters that the font does not have: an SVG shows them all the same.
         warnings.filterwarnings("ignore", message="Glyph")
-        matplotlib.rcdefaults()
-        matplotlib.rcParams.update(_SETTINGS)
-        try:
-            yield
-        finally:
-            _applied.reset(token)
-
-
-def mixed(color: str, share: float, other: int) -> str:
-    parts = (int(color[i : i + 2], 16) for i in (1, 3, 5))
-    return "#" + "".join(f"{round(part + share * (other - part)):02x}" for part in parts)
+        yield
 
 
 def paler(color: str, share: float) -> str:
     """Mixed with `share` of white."""
-    return mixed(color, share, 255)
+    return to_hex([part + share * (1.0 - part) for part in to_rgb(color)])
 
 
 def darker(color: str, share: float) -> str:
     """Mixed with `share` of black."""
-    return mixed(color, share, 0)
+    return to_hex([part - share * part for part in to_rgb(color)])
 
 
 @functools.lru_cache(maxsize=4)
@@ -152,12 +110,20 @@ def height_of(text: str, size: float) -> float:
     return 1.2 * size * (text.count("\n") + 1)
 
 
-def sheet(width: float, height: float, title: str, description: str) -> Figure:
-    """An empty figure [px]; title and description go into its files for screen readers."""
+def sheet(width: float, height: float, fields: dict) -> Figure:
+    """A figure [px] with its title, which goes into its files, as its description does."""
     figure = Figure(figsize=(width / DPI, height / DPI), dpi=DPI)
-    figure.whirl_twin_title = title
-    figure.whirl_twin_description = description
+    figure.whirl_twin_title = fields["title"]
+    figure.whirl_twin_description = fields["description"]
+    if fields["title"]:
+        text, size = fitted(fields["title"], TITLE, width - 20.0, True)
+        figure.suptitle(text, x=0.5, y=1.0 - 8.0 / height, va="top", size=size * PX)
     return figure
+
+
+def title_space(title: str, width: float) -> float:
+    """Height of the place of a figure's title [px]."""
+    return 16.0 + height_of(*fitted(title, TITLE, width - 20.0, True)) if title else 6.0
 
 
 def add_axes(figure: Figure, left: float, top: float, width: float, height: float):
@@ -168,97 +134,56 @@ def add_axes(figure: Figure, left: float, top: float, width: float, height: floa
     ))
 
 
-def add_text(
-    figure: Figure, x: float, y: float, text: str, size: float, ha: str = "left",
-    va: str = "center", color: str = BLACK,
-) -> None:
-    """A text at a place of a figure [px from its upper left corner]."""
+def add_text(figure: Figure, x: float, y: float, text: str, size: float, **more) -> None:
+    """A grey text at a place of a figure [px from its upper left corner]."""
     width, height = figure.get_size_inches() * DPI
-    figure.text(
-        x / width, 1.0 - y / height, text, size=size * PX, ha=ha, va=va, color=color
-    )
+    figure.text(x / width, 1.0 - y / height, text,
+                **{"size": size * PX, "va": "center", "color": GREY, **more})
 
 
-def title_space(title: str, width: float) -> float:
-    """Height of the place of a figure's title [px]."""
-    if not title:
-        return 6.0
-    text, size = fitted(title, TITLE, width - 20.0, True)
-    return 16.0 + height_of(text, size)
+def add_axes_title(ax, title: str, above: float) -> None:
+    """A title `above` axes [px]."""
+    ax.set_title(title, size=fitted(title, CHART_TITLE, 1.2 * size_of(ax)[0])[1] * PX, pad=above * PX)
 
 
-def add_title(figure: Figure, title: str) -> None:
-    """The title of a figure, at its top."""
-    if title:
-        width, height = figure.get_size_inches() * DPI
-        text, size = fitted(title, TITLE, width - 20.0, True)
-        figure.suptitle(
-            text, x=0.5, y=1.0 - 8.0 / height, va="top", size=size * PX, weight="bold", color=BLACK
-        )
+def _legend_columns(names: Sequence[str], width: float) -> Tuple[List[str], float, List[float]]:
+    """Names, long ones in several lines; size of letters; width of each column: as many as fit."""
+    fits = [fitted(name, TICK, max(width - _SAMPLE, 60.0)) for name in names]
+    size = min((size for _, size in fits), default=TICK)
+    sizes = [_SAMPLE + text_width(name, size) + _LEGEND_GAP for name, _ in fits]
+    columns: List[float] = []
+    for count in range(len(names), 0, -1):
+        columns = [max(sizes[i::count]) for i in range(count)]
+        if sum(columns) - _LEGEND_GAP <= width:
+            break
+    return [name for name, _ in fits], size, columns
 
 
-SAMPLE = 24.0  # px, of a line in a legend
-LEGEND_ROW = 20.0  # px
-_LEGEND_GAP = 22.0  # px, between entries
-
-
-def legend_places(names: List[str], width: float) -> List[Tuple[int, float]]:
-    """Row and left edge [px] of each entry of a legend, in as many rows as a width [px] needs.
-
-    Entries of several rows are in columns, unless one long name would make them many more.
-    """
-    sizes = [SAMPLE + 8.0 + text_width(name, TICK) + _LEGEND_GAP for name in names]
-    places: List[Tuple[int, float]] = []
-    row, x = 0, 0.0
-    for size in sizes:
-        if x > 0.0 and x + size - _LEGEND_GAP > width:
-            row, x = row + 1, 0.0
-        places.append((row, x))
-        x += size
-    if row == 0:
-        return places
-    column = max(sizes)
-    columns = max(1, int((width + _LEGEND_GAP) / column))
-    if (len(names) - 1) // columns > row + 1:
-        return places
-    return [(i // columns, column * (i % columns)) for i in range(len(names))]
-
-
-def add_axes_title(ax, title: str, names: List[str], width: float) -> None:
-    """A title over a legend, on axes of the caller."""
-    ax.set_title(title, size=CHART_TITLE * PX, weight="bold", color=BLACK, y=1.0,
-                 pad=(LEGEND_ROW * legend_rows(names, width) + 12.0) * PX)
-
-
-def legend_rows(names: List[str], width: float) -> int:
-    return max((row + 1 for row, _ in legend_places(names, width)), default=0)
+def legend_rows(names: Sequence[str], width: float) -> int:
+    """Of a legend that is as wide [px]; in lines of text."""
+    names, _, columns = _legend_columns(names, width)
+    count = max(len(columns), 1)
+    return max(sum(name.count("\n") + 1 for name in names[i::count]) for i in range(count))
 
 
 def add_legend(
-    ax, handles: list, names: List[str], width: float, above: float, space: float = math.inf
+    ax, handles: Sequence, names: Sequence[str], width: float, above: float, space: float = math.inf
 ) -> None:
     """A legend in rows above the axes, `above` [px] over their upper edge; it covers no curve.
 
     It begins at their left edge, or so far left of it that it ends `space` [px] right of it.
     """
-    from matplotlib.legend import Legend
-    from matplotlib.transforms import ScaledTranslation
-
-    rows = legend_rows(names, width)
-    places = legend_places(names, width)
-    needed = max(x + SAMPLE + 8.0 + text_width(name, TICK) for name, (_, x) in zip(names, places))
-    left = min(0.0, space - min(needed, width))
-    for handle, name, (row, x) in zip(handles, names, places):
-        up = above + LEGEND_ROW * (rows - 1 - row)
-        shift = ScaledTranslation((left + x) / DPI, up / DPI, ax.figure.dpi_scale_trans)
-        text, size = fitted(name, TICK, max(width - SAMPLE - 8.0, 60.0))
-        entry = Legend(
-            ax, [handle], [text], loc="lower left", bbox_to_anchor=(0.0, 1.0),
-            bbox_transform=ax.transAxes + shift, frameon=False, borderpad=0.0, borderaxespad=0.0,
-            labelspacing=0.0, fontsize=size * PX, handlelength=SAMPLE / size,
-            handletextpad=8.0 / size, handleheight=0.8,
-        )
-        ax.add_artist(entry)
+    names, size, columns = _legend_columns(names, width)
+    count = len(columns)
+    order = [k for i in range(count) for k in range(i, len(names), count)]  # rows, not columns
+    left = min(0.0, space - min(sum(columns) - _LEGEND_GAP, width))
+    shift = ScaledTranslation(left / DPI, above / DPI, ax.figure.dpi_scale_trans)
+    ax.add_artist(Legend(
+        ax, [handles[k] for k in order], [names[k] for k in order], ncol=count, loc="lower left",
+        bbox_to_anchor=(0.0, 1.0), bbox_transform=ax.transAxes + shift, fontsize=size * PX,
+        frameon=False, borderpad=0.0, borderaxespad=0.0, labelspacing=0.35, handleheight=0.8,
+        handlelength=(_SAMPLE - 8.0) / size, handletextpad=8.0 / size,
+        columnspacing=_LEGEND_GAP / size))
 
 
 def scale_of(ax) -> float:
@@ -268,11 +193,10 @@ def scale_of(ax) -> float:
 
 def size_of(ax) -> Tuple[float, float]:
     """Width and height of axes [px]."""
-    box = ax.get_position().transformed(ax.figure.transSubfigure)
-    return box.width / scale_of(ax), box.height / scale_of(ax)
+    return ax.bbox.width / scale_of(ax), ax.bbox.height / scale_of(ax)
 
 
-def dash_of(dash: Optional[List[float]]):
+def dash_of(dash: Optional[Sequence[float]]):
     """Line style of dashes [px on, px off ...]; none or all zero: a full line."""
     if not dash or not any(length > 0.0 for length in dash):
         return "-"

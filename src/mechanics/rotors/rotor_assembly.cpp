@@ -256,7 +256,8 @@ void RotorAssembly::addSupports(const FlexibleShaft& shaft) {
       speed_bearings_.push_back(
           {{pedestal.node, pedestal.over_speed, pedestal.knots, pedestal.data}, below});
     }
-    pedestals_.push_back({"pedestal_" + std::to_string(pedestals_.size()), z[node],
+    const std::string chained = above[node] == 1 ? "" : "_" + std::to_string(above[node]);
+    pedestals_.push_back({"pedestal_" + std::to_string(node) + chained, z[node],
                           Eigen::VectorXd::Unit(n, x), Eigen::VectorXd::Unit(n, x + 1)});
   }
 }
