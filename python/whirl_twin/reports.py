@@ -67,17 +67,23 @@ def orbit(scene: SceneLike, speed: Quantity, system: str | None = None) -> Resul
                   "orbit")
 
 
+def path(given: "str | os.PathLike[str] | None") -> str | None:
+    """Of an optional file."""
+    return None if given is None else os.fspath(given)
+
+
 def modes(scene: SceneLike, system: str | None = None, *, speed: Quantity | None = None,
           measured: str | None = None, to: Quantity | None = None, drawn: int = 6,
-          lcm_prefix: str = "TWIN_") -> Result:
+          lcm_prefix: str = "TWIN_", import_settings: "str | os.PathLike[str] | None" = None) -> Result:
     """Modes of the rotors at a speed [rad/s]: frequency, damping, direction, shape; default: the drive's highest.
 
-    measured: path of a log of the running machine: modes identified from its ambient vibration, searched up to ``to``
-    [rad/s]. drawn: number of modes that :meth:`Result.plot` draws.
+    measured: path of a log or a table of the running machine: modes identified from its ambient vibration, searched up
+    to ``to`` [rad/s]. import_settings: path of the settings of a table. drawn: number of modes that :meth:`Result.plot`
+    draws.
     """
     return Result(_native.modes(Scene.load(scene)._native, text("system", system), text("measured", measured),
                                 quantity("speed", speed, "rad/s"), quantity("to", to, "rad/s"), whole("drawn", drawn),
-                                text("lcm_prefix", lcm_prefix)), "modes")
+                                text("lcm_prefix", lcm_prefix), path(import_settings)), "modes")
 
 
 def stability(scene: SceneLike, system: str | None = None, *, speed: Quantity | None = None,
@@ -120,10 +126,11 @@ stability_map = critical_map
 
 def balance(scene: SceneLike, system: str | None = None, *, measured: "str | os.PathLike[str]",
             planes: str | Sequence[str] = (), from_: Quantity | None = None, to: Quantity | None = None,
-            known_run_out: bool = False, lcm_prefix: str = "TWIN_") -> Result:
+            known_run_out: bool = False, lcm_prefix: str = "TWIN_",
+            import_settings: "str | os.PathLike[str] | None" = None) -> Result:
     """Unbalance of a running rotor from a log of its probes and keyphasor, and the masses that cancel it.
 
-    measured: path of the log, as ``twin simulate --measure`` writes it. planes: stations where masses can be added;
+    measured: path of the log, as ``twin simulate --measure`` writes it, or of a table, with import_settings. planes: stations where masses can be added;
     default: those of the scene's unbalances. from_, to: range of speeds [rad/s] that is used. known_run_out: the
     run-out of the scene's sensors is used, else it is estimated.
 
@@ -134,7 +141,7 @@ def balance(scene: SceneLike, system: str | None = None, *, measured: "str | os.
     return Result(_native.balance(Scene.load(scene)._native, text("system", system), os.fspath(measured),
                                   [text("planes", one) for one in listed(planes)],
                                   quantity("from_", from_, "rad/s"), quantity("to", to, "rad/s"), bool(known_run_out),
-                                  text("lcm_prefix", lcm_prefix)), "balance")
+                                  text("lcm_prefix", lcm_prefix), path(import_settings)), "balance")
 
 
 def balance_job(job: "str | os.PathLike[str] | Mapping[str, Any]") -> Result:

@@ -144,8 +144,9 @@ class StudyReader {
     }
     std::set<std::string> files;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      const MapReader run(runs[i], fmt::format("{}[{}]", map.key("runs"), i),
-                          {"file", "use", "time", "measured", "inputs"}, "key of a run",
+      std::vector<std::string> keys = {"file", "use", "measured", "inputs"};
+      keys.insert(keys.end(), tableKeys().begin(), tableKeys().end());
+      const MapReader run(runs[i], fmt::format("{}[{}]", map.key("runs"), i), keys, "key of a run",
                           diagnostics_);
       if (run.usable()) {
         readRun(run, files);
@@ -164,23 +165,24 @@ class StudyReader {
     StudyRun run;
     run.file = map.text("file", "");
     if (run.file.empty()) {
-      diagnostics_.add(map.key("file"),
-                       "missing; must be a file of comma-separated values, an LCM log or a rosbag");
+      diagnostics_.add(
+          map.key("file"),
+          "missing; must be a table of measurements, a UFF file, an LCM log or a rosbag");
     } else if (!files.insert(run.file).second) {
       diagnostics_.add(map.key("file"), fmt::format("duplicate: {} is already in the list",
                                                     whirl_twin::inQuotes(run.file)));
     }
     run.train = map.choice("use", {"train", "validate"}, "the use of a run", "train") == "train";
-    std::vector<std::string> columns;
+    std::vector<WantedColumn> columns;
     readMeasured(map, run, columns);
     readInputs(map, run, columns);
+    const TableSettings table = readTableSettings(map, diagnostics_);
     if (diagnostics_.all().size() != before) {
       return;
     }
     try {
-      const std::string time = map.text("time", "time");
-      run.data = read_((folder_ / run.file).string(), time, columns);
-      settleUnits(run, time, built_->dynamics->inputs(), study_.scene.stepSeconds());
+      run.data = read_((folder_ / run.file).string(), table, columns);
+      settleUnits(run, built_->dynamics->inputs(), study_.scene.stepSeconds());
       if (!study_.validate_only) {
         requireUse(run, study_.window);
       }
@@ -190,7 +192,7 @@ class StudyReader {
     }
   }
 
-  void readMeasured(const MapReader& map, StudyRun& run, std::vector<std::string>& columns) {
+  void readMeasured(const MapReader& map, StudyRun& run, std::vector<WantedColumn>& columns) {
     std::vector<std::string> known, units;
     for (const bool rate : {false, true}) {
       for (const CoordinateInfo& c : built_->dynamics->coordinates()) {
@@ -229,12 +231,12 @@ class StudyReader {
           }
         }
       }
-      add(columns, channel.column);
+      add(columns, {channel.column});
       run.measured.push_back(channel);
     }
   }
 
-  void readInputs(const MapReader& map, StudyRun& run, std::vector<std::string>& columns) {
+  void readInputs(const MapReader& map, StudyRun& run, std::vector<WantedColumn>& columns) {
     if (!map.has("inputs")) {
       return;
     }
@@ -271,7 +273,8 @@ class StudyReader {
         }
         input.hold = entry->choice("hold", {"true", "false"}, "true or false", "false") == "true";
       }
-      add(columns, input.column);
+      add(columns,
+          {input.column, input.hold ? WantedColumn::Gap::kHeld : WantedColumn::Gap::kInterpolated});
       run.inputs.push_back(input);
     }
   }
@@ -326,8 +329,9 @@ class StudyReader {
     }
   }
 
-  static void add(std::vector<std::string>& columns, const std::string& column) {
-    if (std::find(columns.begin(), columns.end(), column) == columns.end()) {
+  static void add(std::vector<WantedColumn>& columns, const WantedColumn& column) {
+    if (std::none_of(columns.begin(), columns.end(),
+                     [&](const WantedColumn& other) { return other.name == column.name; })) {
       columns.push_back(column);
     }
   }

@@ -9,9 +9,9 @@
 
 namespace whirl_twin {
 
-/// Reads the columns of a run: path, name of the time, names of the columns.
-using RunReader = std::function<MeasuredRun(const std::string&, const std::string&,
-                                            const std::vector<std::string>&)>;
+/// Reads the columns of a run: path, how its table is written, the columns.
+using RunReader = std::function<MeasuredRun(const std::string&, const TableSettings&,
+                                            const std::vector<WantedColumn>&)>;
 
 /// Reads a study from a YAML file, with its scene and its runs; their paths are relative to the
 /// folder of the study. Throws InputError with all errors of the study, its scene and its runs,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <set>
@@ -14,6 +13,7 @@
 #include "messages/input_error.h"
 #include "messages/names.h"
 #include "messages/units.h"
+#include "scene/table_cells.h"
 #include "signal/outliers.h"
 
 namespace whirl_twin {
@@ -153,26 +153,14 @@ constexpr double kManyTurns = 10.0;
 constexpr double kManySteps = 1000.0;  // of the scene, from row to row
 constexpr int kMinInWindow = 5;        // rows
 
-/// Unit in `q1[deg]`; "" if there is none.
-std::string columnUnit(const std::string& column) {
-  const std::size_t open = column.rfind('[');
-  if (open == std::string::npos || column.back() != ']') {
-    return "";
-  }
-  const std::string unit = column.substr(open + 1, column.size() - open - 2);
-  // An index is not a unit: `positions[0]`.
-  return !unit.empty() && std::isalpha(static_cast<unsigned char>(unit.front())) != 0 &&
-                 isUnit(unit)
-             ? unit
-             : "";
-}
-
 class Columns {
  public:
   explicit Columns(MeasuredRun& run) : run_(run) {}
 
   void bring(const std::string& name, const std::string& what, const std::string& wanted) {
-    const std::string unit = columnUnit(name);
+    const auto column = std::find_if(run_.columns.begin(), run_.columns.end(),
+                                     [&](const MeasuredColumn& c) { return c.name == name; });
+    const std::string unit = column->unit.empty() ? columnOfHeading(name).unit : column->unit;
     if (unit.empty() || !done_.insert(name).second) {
       return;
     }
@@ -183,10 +171,8 @@ class Columns {
                       "kind",
                       inQuotes(name), printable(unit), what, wanted));
     }
-    for (MeasuredColumn& column : run_.columns) {
-      for (double& value : column.values) {
-        value *= column.name == name ? scale : 1.0;
-      }
+    for (double& value : column->values) {
+      value *= scale;
     }
   }
 
@@ -264,13 +250,7 @@ void replaceWildSamples(MeasuredRun& run, const std::string& name) {
 
 }  // namespace
 
-void settleUnits(StudyRun& run, const std::string& time, const std::vector<InputInfo>& inputs,
-                 double step_seconds) {
-  const std::string unit = columnUnit(time);
-  if (!unit.empty() && unitScale(unit, "s") != 1.0) {
-    throw InputError(
-        fmt::format("column {}: the time must be in s, found {}", inQuotes(time), printable(unit)));
-  }
+void settleUnits(StudyRun& run, const std::vector<InputInfo>& inputs, double step_seconds) {
   Columns columns(run.data);
   for (const MeasuredChannel& channel : run.measured) {
     columns.bring(channel.column, channel.name, channel.unit);

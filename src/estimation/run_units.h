@@ -21,10 +21,8 @@ namespace whirl_twin {
 void unwrapTurns(MeasuredRun& run, const MeasuredChannel& channel);
 
 /// Converts columns with a unit to the units of the study's channels and inputs (unitScale()), and
-/// adds remarks. Throws InputError for a unit of another kind, a time that is not in s, and
-/// implausible values.
-void settleUnits(StudyRun& run, const std::string& time, const std::vector<InputInfo>& inputs,
-                 double step_seconds);
+/// adds remarks. Throws InputError for a unit of another kind, and implausible values.
+void settleUnits(StudyRun& run, const std::vector<InputInfo>& inputs, double step_seconds);
 
 /// Throws InputError if a run cannot be used for a fit: windows [s] with too few rows, or, in a
 /// training run, measured columns that are all constant.

@@ -136,16 +136,16 @@ void bindReports(py::module_& module) {
   module.def(
       "modes",
       [](const SharedScene& scene, Name system, Name measured, Number speed, Number limit,
-         int modes, const std::string& lcm_prefix) {
+         int modes, const std::string& lcm_prefix, Name import) {
         const ModesRequest request{std::move(system), std::move(measured), speed, limit, modes,
-                                   lcm_prefix};
+                                   lcm_prefix,        std::move(import)};
         Document document;
         runListening(py::none(),
                      [&](WorkProgress&) { document = modesDocument(scene->scene, request); });
         return document;
       },
       py::arg("scene"), py::arg("system"), py::arg("measured"), py::arg("speed"), py::arg("limit"),
-      py::arg("modes"), py::arg("lcm_prefix"));
+      py::arg("modes"), py::arg("lcm_prefix"), py::arg("import_settings"));
   module.def(
       "stability",
       [](const SharedScene& scene, const Name& system, Number speed, Name at,
@@ -176,9 +176,9 @@ void bindReports(py::module_& module) {
       "balance",
       [](const SharedScene& scene, Name system, std::string measured,
          std::vector<std::string> planes, Number from, Number to, bool run_out_known,
-         std::string lcm_prefix) {
+         std::string lcm_prefix, Name import) {
         MeasuredBalanceRequest request{
-            std::move(system), std::move(measured), {}, std::move(lcm_prefix)};
+            std::move(system), std::move(measured), {}, std::move(lcm_prefix), std::move(import)};
         request.unbalance.planes = std::move(planes);
         request.unbalance.run_out_known = run_out_known;
         request.unbalance.from = from.value_or(request.unbalance.from);
@@ -189,7 +189,7 @@ void bindReports(py::module_& module) {
         return document;
       },
       py::arg("scene"), py::arg("system"), py::arg("measured"), py::arg("planes"), py::arg("start"),
-      py::arg("stop"), py::arg("run_out_known"), py::arg("lcm_prefix"));
+      py::arg("stop"), py::arg("run_out_known"), py::arg("lcm_prefix"), py::arg("import_settings"));
   module.def(
       "balance_job",
       [](const py::object& job) {

@@ -129,12 +129,12 @@ std::string followedSystemText(const EstimatorSystem& system) {
 
 }  // namespace
 
-FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const std::string& log,
-                      const std::string& prefix, SampleWriter* writer, std::int64_t every,
+FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const Recording& recording,
+                      SampleWriter* writer, std::int64_t every,
                       const std::function<void(std::uint64_t, std::uint64_t)>& advanced) {
   FollowedLog run;
   run.scene = twin.scene().name;
-  run.log = log;
+  run.log = recording.path;
   const auto generations = std::make_shared<SystemGenerations>(twin);
   Observer observer(twin, generations);
   std::vector<EstimatorSystem> systems(twin.systems().size());
@@ -162,7 +162,7 @@ FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const st
   };
   StateEstimator follower(twin, generations, settings, every, listener);
   run.file = readMeasurements(
-      log, run.scene, estimatorSources(twin.scene(), settings), prefix,
+      recording, run.scene, estimatorSources(twin.scene(), settings),
       [&](const state::Measurement& measurement) {
         if (writer != nullptr) {
           writer->write(measurement);

@@ -53,11 +53,11 @@ struct FollowedLog {
   std::vector<EstimatorSystem> systems;
 };
 
-/// Follows the measurements of a log, on channels that begin with `prefix`, or of a table. writer
+/// Follows the measurements of a recording. writer
 /// may be null; it is given a sample every so many steps, and what was measured, and is not
 /// finished. Throws as readMeasurements().
-FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const std::string& log,
-                      const std::string& prefix, SampleWriter* writer, std::int64_t every,
+FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const Recording& recording,
+                      SampleWriter* writer, std::int64_t every,
                       const std::function<void(std::uint64_t, std::uint64_t)>& advanced);
 
 std::string text(const FollowedLog& run);

@@ -19,8 +19,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kRowsOfBlock = 100;  // of a table
-
 /// What channels there are, and of which there are samples.
 class ChannelsFound {
  public:
@@ -100,103 +98,6 @@ class ChannelsFound {
   std::string contradiction_;
 };
 
-MeasuredFile readMeasuredMessages(const std::string& path, const std::string& scene,
-                                  const std::vector<EstimatorSource>& sources,
-                                  const std::string& prefix,
-                                  const std::function<void(const state::Measurement&)>& take,
-                                  const LogProgress& advanced) {
-  std::set<std::string> names;
-  for (const EstimatorSource& source : sources) {
-    names.insert(source.name);
-  }
-  MeasuredFile file;
-  ChannelsFound channels;
-  const LoggedMessages log = readLoggedMessages(
-      path, prefix, {&state::Measurement::kKind},
-      [&](const Message& message, std::int64_t) {
-        const auto& measurement = std::get<state::Measurement>(message);
-        channels.take(measurement);
-        if (names.count(measurement.source) > 0) {
-          ++file.messages;
-          take(measurement);
-        }
-      },
-      advanced);
-  if (file.messages == 0) {
-    throw InputError(
-        fmt::format("{}: must have measurements of the sensors of '{}' on channels that begin with "
-                    "{} (--lcm-prefix), {}",
-                    path, scene, prefix, foundElsewhere(log)));
-  }
-  if (log.out_of_order > 0) {
-    channels.requireOneRun(path);
-    file.remarks.push_back(outOfOrder(log));
-  }
-  channels.requireInputs(path, sources);
-  file.rejected = log.rejected;
-  file.damaged = log.damaged;
-  file.first_damage = log.first_damage;
-  return file;
-}
-
-/// The only one, no keyphasor: rows have one time for all.
-const EstimatorSource& tableSource(const std::string& scene,
-                                   const std::vector<EstimatorSource>& sources) {
-  if (sources.size() != 1 || sources.front().keyphasor) {
-    throw InputError(
-        fmt::format("a table has the rows of one source without a keyphasor; the scene "
-                    "'{}' and the settings have {} sources: use an LCM log",
-                    scene, sources.size()));
-  }
-  return sources.front();
-}
-
-MeasuredFile readTable(const std::string& path, const EstimatorSource& source,
-                       const std::function<void(const state::Measurement&)>& take) {
-  state::Measurement block;
-  block.source = source.name;
-  block.channel = source.names();
-  block.unit = source.units();
-  for (const EstimatorSource::Channel& channel : source.channels) {
-    block.deviation.push_back(channel.deviation);
-  }
-  MeasuredFile file;
-  const MeasuredRun run = [&] {
-    try {
-      return readMeasuredRun(path, "time", block.channel);
-    } catch (const InputError& error) {
-      throw InputError(path + ": " + error.what());
-    }
-  }();
-  file.remarks = run.remarks;
-  for (std::size_t first = 0; first < run.time.size(); first += kRowsOfBlock) {
-    const std::size_t end = std::min(run.time.size(), first + kRowsOfBlock);
-    block.instant.clear();
-    block.value.clear();
-    for (std::size_t row = first; row < end; ++row) {
-      const std::int64_t instant = std::llround(run.time[row] * 1.0e9);
-      if (!block.instant.empty() && instant <= block.instant.back()) {
-        continue;  // less than a nanosecond later
-      }
-      block.instant.push_back(instant);
-      for (const MeasuredColumn& column : run.columns) {
-        block.value.push_back(column.values[row]);
-      }
-    }
-    block.samples = static_cast<std::int64_t>(block.instant.size());
-    block.first_instant = block.instant.front();
-    block.valid.assign(block.value.size(), 1);
-    block.at.step = static_cast<std::int64_t>(file.messages++);
-    block.at.time = static_cast<double>(block.instant.back()) * 1.0e-9;
-    take(block);
-  }
-  return file;
-}
-
-bool endsWith(const std::string& path, const std::string& end) {
-  return path.size() >= end.size() && path.compare(path.size() - end.size(), end.size(), end) == 0;
-}
-
 /// What was measured by one source: a row for each sample.
 struct SourceRows {
   std::vector<std::int64_t> instants;  // ns
@@ -240,7 +141,11 @@ void take(const state::Measurement& block, const std::vector<std::size_t>& place
 }
 
 MeasuredRun readMeasuredLog(const std::string& path, const std::string& prefix,
-                            const std::vector<std::string>& columns) {
+                            const std::vector<WantedColumn>& wanted) {
+  std::vector<std::string> columns;
+  for (const WantedColumn& column : wanted) {
+    columns.push_back(column.name);
+  }
   std::map<std::string, SourceRows> sources;
   std::set<std::string> seen;
   const LoggedMessages log = readLoggedMessages(
@@ -296,21 +201,50 @@ MeasuredRun readMeasuredLog(const std::string& path, const std::string& prefix,
 
 }  // namespace
 
-MeasuredFile readMeasurements(const std::string& path, const std::string& scene,
+MeasuredFile readMeasurements(const Recording& recording, const std::string& scene,
                               const std::vector<EstimatorSource>& sources,
-                              const std::string& prefix,
                               const std::function<void(const state::Measurement&)>& take,
                               const LogProgress& advanced) {
-  return std::filesystem::path(path).extension() == ".csv"
-             ? readTable(path, tableSource(scene, sources), take)
-             : readMeasuredMessages(path, scene, sources, prefix, take, advanced);
+  std::set<std::string> names;
+  for (const EstimatorSource& source : sources) {
+    names.insert(source.name);
+  }
+  MeasuredFile file;
+  ChannelsFound channels;
+  const std::string& path = recording.path;
+  const LoggedMessages log = readRecording(
+      recording, sources, {&state::Measurement::kKind},
+      [&](const Message& message, std::int64_t) {
+        const auto& measurement = std::get<state::Measurement>(message);
+        channels.take(measurement);
+        if (names.count(measurement.source) > 0) {
+          ++file.messages;
+          take(measurement);
+        }
+      },
+      advanced);
+  if (file.messages == 0) {
+    throw InputError(
+        fmt::format("{}: must have measurements of the sensors of '{}' on channels that begin with "
+                    "{} (--lcm-prefix), {}",
+                    path, scene, recording.prefix, foundElsewhere(log)));
+  }
+  if (log.out_of_order > 0) {
+    channels.requireOneRun(path);
+    file.remarks.push_back(outOfOrder(log));
+  }
+  channels.requireInputs(path, sources);
+  file.remarks.insert(file.remarks.end(), log.remarks.begin(), log.remarks.end());
+  file.rejected = log.rejected;
+  file.damaged = log.damaged;
+  file.first_damage = log.first_damage;
+  return file;
 }
 
 MeasuredRun readRecordedRun(const std::string& path, const std::string& prefix,
-                            const std::string& time, const std::vector<std::string>& columns) {
-  const bool is_log =
-      endsWith(path, ".lcmlog") || endsWith(path, ".bag") || endsWith(path, ".bag.active");
-  return is_log ? readMeasuredLog(path, prefix, columns) : readMeasuredRun(path, time, columns);
+                            const TableSettings& table, const std::vector<WantedColumn>& columns) {
+  return isTable(path) ? readMeasuredRun(path, table, columns)
+                       : readMeasuredLog(path, prefix, columns);
 }
 
 }  // namespace whirl_twin

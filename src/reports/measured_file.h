@@ -1,5 +1,4 @@
-// Measurements of a file: the Measurement messages of an LCM log or a rosbag, or a table of
-// comma-separated values, for `twin follow` and `twin fit`.
+// Measurements of a recording, for `twin follow` and `twin fit`.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +9,7 @@
 #include "estimation/estimator_sources.h"
 #include "estimation/measured_run.h"
 #include "messages/measurement.h"
-#include "transport/logged_messages.h"
+#include "reports/recording.h"
 
 namespace whirl_twin {
 
@@ -25,20 +24,18 @@ struct MeasuredFile {
 };
 
 /// Gives `take` every message of the sources, those of a scene by this name, in the order of
-/// recorded time; a table ends in .csv. Throws InputError for a file that cannot be read, that has
-/// none of them, or no sample of an input, or whose messages are out of order and of two runs.
-MeasuredFile readMeasurements(const std::string& path, const std::string& scene,
+/// recorded time. Throws InputError for a file that cannot be read, that has none of them, or no
+/// sample of an input, or whose messages are out of order and of two runs.
+MeasuredFile readMeasurements(const Recording& recording, const std::string& scene,
                               const std::vector<EstimatorSource>& sources,
-                              const std::string& prefix,
                               const std::function<void(const state::Measurement&)>& take,
                               const LogProgress& advanced);
 
-/// Columns of a file: those of a table (readMeasuredRun), or, of a file that ends in .lcmlog, .bag
-/// or .bag.active, channels of its measurements on channels that begin with `prefix`: `theta`, or
-/// `encoder/theta` where several sources have one of that name. All are of one source, so that a
-/// row is an instant; time counts from its first sample, and `time` is not used. Throws InputError
-/// as readMeasuredRun(), and where a channel is not there.
+/// Columns of a file: those of a table (readMeasuredRun), or, of a log, channels of its
+/// measurements on channels that begin with `prefix`: `theta`, or `encoder/theta` where several
+/// sources have one of that name. All are of one source, so that a row is an instant; time counts
+/// from its first sample. Throws InputError as readMeasuredRun(), and where a channel is not there.
 MeasuredRun readRecordedRun(const std::string& path, const std::string& prefix,
-                            const std::string& time, const std::vector<std::string>& columns);
+                            const TableSettings& table, const std::vector<WantedColumn>& columns);
 
 }  // namespace whirl_twin

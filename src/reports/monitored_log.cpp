@@ -16,7 +16,6 @@
 #include "messages/wall_clock.h"
 #include "monitoring/twin_monitor.h"
 #include "monitoring/whirl_vibration.h"
-#include "transport/logged_messages.h"
 
 namespace whirl_twin {
 
@@ -359,14 +358,14 @@ class Replay {
 }  // namespace
 
 MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
-                        const std::string& log, const std::string& prefix,
-                        std::optional<double> spectrum_at, const LogProgress& advanced) {
+                        const Recording& recording, std::optional<double> spectrum_at,
+                        const LogProgress& advanced) {
   MonitoredLog run;
   run.scene = scene.scene.name;
-  run.log = log;
+  run.log = recording.path;
   Replay replay(scene, settings, spectrum_at, run);
-  const LoggedMessages read = readLoggedMessages(
-      log, prefix, allKinds(),
+  const LoggedMessages read = readRecording(
+      recording, estimatorSources(scene.scene, {}), allKinds(),
       [&](const Message& message, std::int64_t stamp) {
         replay.passTo(stamp);
         replay.take(message);
@@ -375,13 +374,14 @@ MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
   run.damaged = read.damaged;
   run.first_damage = read.first_damage;
   run.rejected += read.rejected;
+  run.remarks = read.remarks;
   replay.finish();
   if (std::all_of(run.systems.begin(), run.systems.end(),
                   [](const SystemCourse& course) { return course.states == 0; })) {
     throw InputError(
         fmt::format("{}: must have states of the systems of '{}' on channels that begin with {} "
                     "(--lcm-prefix), {}",
-                    log, scene.scene.name, prefix, foundElsewhere(read)));
+                    run.log, scene.scene.name, recording.prefix, foundElsewhere(read)));
   }
   if (spectrum_at && !(*spectrum_at >= run.begin && *spectrum_at <= run.end)) {
     throw InputError(

@@ -13,11 +13,11 @@
 #include "monitoring/alarm_settings.h"
 #include "reports/csv_table.h"
 #include "reports/figure.h"
+#include "reports/recording.h"
 #include "reports/report_page.h"
 #include "scene/built_scene.h"
 #include "signal/passed_resonance.h"
 #include "signal/spectrum_cascade.h"
-#include "transport/logged_messages.h"
 
 namespace whirl_twin {
 
@@ -76,19 +76,20 @@ struct MonitoredLog {
   std::uint64_t rejected = 0;     ///< that are invalid, or do not fit the scene
   std::uint64_t damaged = 0;      ///< places of the log that are no event
   std::string first_damage;       ///< where, and what; "": none
-  std::uint64_t resets = 0;       ///< of simulated time
+  std::vector<std::string> remarks;   ///< on a table
+  std::uint64_t resets = 0;           ///< of simulated time
   std::vector<SystemCourse> systems;  ///< in the order of the scene
   std::vector<AlertCourse> alerts;    ///< as they were raised
 };
 
-/// Replays the log of a twin whose channels begin with `prefix`; the monitor's wall time is that of
-/// the log's stamps. advanced(bytes, of_bytes) is called now and then.
+/// Replays the recording of a twin or a machine; the monitor's wall time is that of its stamps.
+/// advanced(bytes, of_bytes) is called now and then.
 /// @param spectrum_at [s], simulated, where the window of the full spectrum ends; none: at the end
 /// Throws InputError for a file that cannot be read, or holds no states of the scene's systems, or
 /// none at that time.
 MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
-                        const std::string& log, const std::string& prefix,
-                        std::optional<double> spectrum_at, const LogProgress& advanced);
+                        const Recording& recording, std::optional<double> spectrum_at,
+                        const LogProgress& advanced);
 
 std::string text(const MonitoredLog& run);
 Json json(const MonitoredLog& run);

@@ -128,6 +128,7 @@ std::string text(const MonitoredLog& run) {
     out +=
         run.first_damage.empty() ? "" : fmt::format("  first corruption: {}\n", run.first_damage);
   }
+  out += joined(run.remarks, [](const auto& remark) { return "  " + remark + "\n"; });
   if (run.resets > 0) {
     out += fmt::format("  the simulation was reset {}\n", plural(run.resets, "time", "times"));
   }
@@ -165,7 +166,7 @@ Json json(const MonitoredLog& run) {
       {"log", run.log},           {"scene", run.scene},       {"begin", run.begin},
       {"end", run.end},           {"duration", run.duration}, {"messages", run.watched},
       {"rejected", run.rejected}, {"damaged", run.damaged},   {"first_damage", run.first_damage},
-      {"resets", run.resets},     {"systems", Json::object()}};
+      {"resets", run.resets},     {"remarks", run.remarks},   {"systems", Json::object()}};
   for (const SystemCourse& system : run.systems) {
     json["systems"][system.name] = {{"states", system.states},
                                     {"verdicts", system.margin_time.size()},

@@ -12,9 +12,9 @@
 #include "messages/names.h"
 #include "messages/units.h"
 #include "reports/output.h"
-#include "scene/csv_columns.h"
 #include "scene/node_reader.h"
 #include "scene/scene_error.h"
+#include "scene/table_cells.h"
 
 namespace whirl_twin {
 
@@ -144,8 +144,10 @@ RotorDrawing drawingOfElements(const std::string& path) {
   std::string line;
   std::getline(in, line);
   std::vector<Column> columns;
-  for (const std::string& heading : csvCells(line)) {
-    columns.push_back(columnOf(heading, diagnostics));
+  std::vector<std::string_view> cells;
+  splitCells(line.rfind("\xef\xbb\xbf", 0) == 0 ? line.substr(3) : line, ',', cells);
+  for (const std::string_view heading : cells) {
+    columns.push_back(columnOf(std::string(heading), diagnostics));
   }
   for (const char* needed : {"length", "outer_diameter"}) {
     if (std::none_of(columns.begin(), columns.end(),
@@ -160,13 +162,13 @@ RotorDrawing drawingOfElements(const std::string& path) {
   drawing.youngs_modulus = kSteelModulus;
   drawing.density = kSteelDensity;
   for (std::size_t number = 2; std::getline(in, line); ++number) {
-    const std::vector<std::string> values = csvCells(line);
-    if (values.size() == 1 && values[0].empty()) {
+    splitCells(line, ',', cells);
+    if (cells.size() == 1 && cells[0].empty()) {
       continue;
     }
     DrawnRow row;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      const std::string text = i < values.size() ? values[i] : "";
+      const std::string text(i < cells.size() ? cells[i] : std::string_view());
       const std::optional<double> value = parseNumber(text);
       if (value) {
         row.emplace_back(columns[i].name, drawn(*value * columns[i].scale));

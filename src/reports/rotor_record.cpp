@@ -14,7 +14,6 @@
 #include "messages/units.h"
 #include "scene/signal_names.h"
 #include "signal/recorded_signal.h"
-#include "transport/logged_messages.h"
 
 namespace whirl_twin {
 
@@ -114,9 +113,9 @@ void RecordCounts::addTo(Json& json, std::int64_t used) const {
                {"pulse_jitter", jitter}});
 }
 
-RotorRecord::RotorRecord(const BuiltScene& scene, const RotorSystem& system, const std::string& log,
-                         const std::string& prefix, ProbesRead probes)
-    : log_(log), prefix_(prefix) {
+RotorRecord::RotorRecord(const BuiltScene& scene, const RotorSystem& system,
+                         const Recording& recording, ProbesRead probes)
+    : recording_(recording), measured_(estimatorSources(scene.scene, {})) {
   findProbes(scene, system, probes);
   if (probes_.empty()) {
     findWhirl(system);
@@ -126,16 +125,16 @@ RotorRecord::RotorRecord(const BuiltScene& scene, const RotorSystem& system, con
         "{}: must have displacement probes at '{}' and a keyphasor on its shaft, as `sensors` of "
         "the "
         "scene names them, or its whirl, on channels that begin with {} (--lcm-prefix); {}",
-        log_, system.name, prefix_, foundElsewhere(eachMessage([](const Message&) {}))));
+        log(), system.name, recording_.prefix, foundElsewhere(eachMessage([](const Message&) {}))));
   }
   if (!(steady_speed_ > 0.0)) {
-    throw InputError(fmt::format("{}: the shaft must rotate forward", log_));
+    throw InputError(fmt::format("{}: the shaft must rotate forward", log()));
   }
 }
 
 LoggedMessages RotorRecord::eachMessage(const std::function<void(const Message&)>& take) const {
-  return readLoggedMessages(
-      log_, prefix_, {&state::Measurement::kKind, &state::WhirlState::kKind},
+  return readRecording(
+      recording_, measured_, {&state::Measurement::kKind, &state::WhirlState::kKind},
       [&](const Message& message, std::int64_t) { take(message); },
       [](std::uint64_t, std::uint64_t) {});
 }
@@ -157,7 +156,7 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
     return;
   }
   std::map<std::string, std::vector<std::int64_t>> pulses;
-  eachMessage([&](const Message& message) {
+  const LoggedMessages log = eachMessage([&](const Message& message) {
     const auto* const measured = std::get_if<state::Measurement>(&message);
     if (measured == nullptr) {
       return;
@@ -174,6 +173,7 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
       found->second.take(*measured);
     }
   });
+  notes_ = log.remarks;
   const RecordedSource* best = nullptr;
   for (const auto& [name, source] : sources) {
     if (source.samples > 1 &&

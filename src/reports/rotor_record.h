@@ -15,8 +15,8 @@
 #include "estimation/unbalance_fit.h"
 #include "messages/measurement.h"
 #include "reports/output.h"
+#include "reports/recording.h"
 #include "reports/rotor_systems.h"
-#include "transport/logged_messages.h"
 
 namespace whirl_twin {
 
@@ -54,11 +54,11 @@ enum class ProbesRead { kAll, kAtSameInstants };
 class RotorRecord {
  public:
   /// Looks through the log. Throws InputError where it holds nothing of the rotor that could be
-  /// used, with what was expected, and as readLoggedMessages() does.
-  RotorRecord(const BuiltScene& scene, const RotorSystem& system, const std::string& log,
-              const std::string& prefix, ProbesRead probes = ProbesRead::kAll);
+  /// used, with what was expected, and as readRecording() does.
+  RotorRecord(const BuiltScene& scene, const RotorSystem& system, const Recording& recording,
+              ProbesRead probes = ProbesRead::kAll);
 
-  const std::string& log() const { return log_; }
+  const std::string& log() const { return recording_.path; }
   const std::vector<RecordedProbe>& probes() const { return probes_; }
   /// Of sources of the scene that are not read, and why.
   const std::vector<std::string>& notes() const { return notes_; }
@@ -83,7 +83,8 @@ class RotorRecord {
     std::size_t first = 0;  // of probes_
   };
 
-  std::string log_, prefix_;
+  Recording recording_;
+  std::vector<EstimatorSource> measured_;  // by the sensors of the scene
   std::vector<RecordedProbe> probes_;
   std::vector<ProbeSource> sources_;
   std::vector<std::string> notes_;

@@ -42,9 +42,9 @@ Document fitDocument(const std::string& path, const FitRequest& request, WorkPro
   requireLcmPrefix(request.lcm_prefix);
   const auto study = std::make_shared<const FitStudy>(
       readFitStudy(path, request.validate_only || request.check,
-                   [&](const std::string& file, const std::string& time,
-                       const std::vector<std::string>& columns) {
-                     return readRecordedRun(file, request.lcm_prefix, time, columns);
+                   [&](const std::string& file, const TableSettings& table,
+                       const std::vector<WantedColumn>& columns) {
+                     return readRecordedRun(file, request.lcm_prefix, table, columns);
                    }));
   Document document;
   if (request.check) {

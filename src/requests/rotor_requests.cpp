@@ -139,7 +139,8 @@ Document modesDocument(const Scene& scene, const ModesRequest& request, const Sh
   const auto report = [&](const RotorSystem& rotor) {
     return request.measured
                ? modesReport(rotor,
-                             RotorRecord(of->scene, rotor, *request.measured, request.lcm_prefix,
+                             RotorRecord(of->scene, rotor,
+                                         {*request.measured, request.lcm_prefix, request.import},
                                          ProbesRead::kAtSameInstants),
                              request.speed, request.limit)
                : modesReport(rotor, request.speed.value_or(rotor.highest_speed));
@@ -178,7 +179,8 @@ Document balanceDocument(const Scene& scene, const MeasuredBalanceRequest& reque
   }
   const RotorSystem& rotor = of.rotors.front();
   const UnbalanceReport report = unbalanceReport(
-      rotor, RotorRecord(of.scene, rotor, request.measured, request.lcm_prefix), unbalance);
+      rotor, RotorRecord(of.scene, rotor, {request.measured, request.lcm_prefix, request.import}),
+      unbalance);
   Document document;
   document.json = json(report);
   document.text = text(report);

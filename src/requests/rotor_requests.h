@@ -50,10 +50,11 @@ Document orbitDocument(const Scene& scene, const std::optional<std::string>& sys
 
 struct ModesRequest {
   std::optional<std::string> system;
-  std::optional<std::string> measured;  ///< path of a log of the running machine
+  std::optional<std::string> measured;  ///< path of a recording of the running machine
   std::optional<double> speed, limit;   ///< [rad/s]
   int modes = 6;                        ///< that are drawn
   std::string lcm_prefix = kDefaultLcmPrefix;
+  std::optional<std::string> import = std::nullopt;  ///< settings of a table, as in Recording
 };
 Document modesDocument(const Scene& scene, const ModesRequest& request,
                        const ShownUnits& units = {});
@@ -66,9 +67,10 @@ Document mapDocument(const Scene& scene, const std::optional<std::string>& syste
 
 struct MeasuredBalanceRequest {
   std::optional<std::string> system;
-  std::string measured;  ///< path of a log of the running machine
+  std::string measured;  ///< path of a recording of the running machine
   UnbalanceRequest unbalance;
   std::string lcm_prefix = kDefaultLcmPrefix;
+  std::optional<std::string> import = std::nullopt;  ///< as in Recording
 };
 /// Of one rotor, and without the names of scene and system around its values.
 Document balanceDocument(const Scene& scene, const MeasuredBalanceRequest& request);

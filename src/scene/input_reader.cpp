@@ -10,7 +10,7 @@
 
 #include "control/input_shaper.h"
 #include "messages/input_error.h"
-#include "scene/csv_columns.h"
+#include "scene/table_reader.h"
 
 namespace whirl_twin {
 
@@ -51,8 +51,8 @@ InputSignal tableOf(const std::vector<double>& times, const std::vector<double>&
   return signal;
 }
 
-InputSignal readFile(const MapReader& map, const std::string& folder, bool hold,
-                     Diagnostics& diagnostics) {
+InputSignal readFile(const MapReader& map, const std::string& unit, const std::string& folder,
+                     bool hold, Diagnostics& diagnostics) {
   const std::string name = map.text("table", "");
   const std::string time = map.text("time", "time");
   const std::string value = map.text("value", "value");
@@ -68,7 +68,8 @@ InputSignal readFile(const MapReader& map, const std::string& folder, bool hold,
     path = std::filesystem::path(folder) / path;
   }
   try {
-    const std::vector<std::vector<double>> columns = csvColumns(path.string(), {time, value});
+    const std::vector<std::vector<double>> columns =
+        tableColumns(path.string(), {{time, "s"}, {value, unit}});
     return tableOf(columns[0], columns[1], hold, time);
   } catch (const InputError& error) {
     diagnostics.add(map.key("table"), fmt::format("{}: {}", path.string(), error.what()));
@@ -149,8 +150,8 @@ InputSignal readSignalTable(const YAML::Node& node, const std::string& key, cons
                            : std::vector<std::string>{"times", "values", "hold", "shaper"},
                       "key of a table", diagnostics);
   const bool hold = map.choice("hold", {"false", "true"}, "true or false", "false") == "true";
-  const InputSignal signal =
-      file ? readFile(map, folder, hold, diagnostics) : readLists(map, unit, hold, diagnostics);
+  const InputSignal signal = file ? readFile(map, unit, folder, hold, diagnostics)
+                                  : readLists(map, unit, hold, diagnostics);
   return map.has("shaper") ? readShaped(map, signal, diagnostics) : signal;
 }
 

@@ -45,6 +45,15 @@ void addInsistOption(const ProgramCommand& command, bool& insist) {
                "run even if it takes more than a day or more memory than is free");
 }
 
+Option addImportOption(const ProgramCommand& command, std::optional<std::string>& import) {
+  return command
+      .option(
+          "--import", import,
+          "how a table of measurements is read, YAML; default: by its first lines and the names "
+          "of its columns")
+      .type("FILE");
+}
+
 void addCsvOption(const ProgramCommand& command, std::optional<std::string>& csv) {
   command.option("--csv", csv, "write the complete tables: FILE.csv, FILE_NAME.csv")
       .type("FILE.csv");

@@ -28,6 +28,9 @@ void addSceneOption(const ProgramCommand& command, SceneArgument& scene);
 /// (reports/asked_cost.h).
 void addInsistOption(const ProgramCommand& command, bool& insist);
 
+/// --import: how the columns of a table of measurements are read (estimation/import_settings.h).
+Option addImportOption(const ProgramCommand& command, std::optional<std::string>& import);
+
 /// --csv: the command's tables, into files (reports/csv_table.h).
 void addCsvOption(const ProgramCommand& command, std::optional<std::string>& csv);
 

@@ -48,7 +48,8 @@ constexpr const char* kBalanceFooter =
     "                        of ISO 21940-11, grade in mm/s; default: equal shares\n"
     "The correction masses are to be added after the trial masses are removed.\n"
     "\n"
-    "With --measured, FILE is a scene, and LOG an LCM log or a rosbag with the measurements of "
+    "With --measured, FILE is a scene, and LOG an LCM log, a rosbag or a table with the "
+    "measurements of "
     "its\n"
     "`sensors`, as `twin simulate --measure` writes it: displacement probes and a keyphasor, over "
     "a\n"
@@ -113,6 +114,7 @@ void addBalanceCommand(const ProgramCommand& twin, int& status) {
                .option("--lcm-prefix", request->log.lcm_prefix,
                        "prefix of the log's channels; default: TWIN_")
                .type("PREFIX"));
+  with_log(addImportOption(command, request->log.import));
   addCsvOption(command, request->csv);
   addJsonOption(command, request->json);
   command.footer(kBalanceFooter);

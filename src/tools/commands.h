@@ -43,6 +43,7 @@ void addFollowCommand(const ProgramCommand& twin, int& status);
 void addStabilityCommand(const ProgramCommand& twin, int& status);
 void addLoopCommand(const ProgramCommand& twin, int& status);
 void addMapCommand(const ProgramCommand& twin, int& status);
+void addBodeCommand(const ProgramCommand& twin, int& status);
 void addModesCommand(const ProgramCommand& twin, int& status);
 void addMonitorCommand(const ProgramCommand& twin, int& status);
 void addSweepCommand(const ProgramCommand& twin, int& status);

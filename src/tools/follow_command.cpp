@@ -22,7 +22,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kFollowDescription =
-    "Estimates the state of a machine from the measurements in an LCM log or a rosbag, faster "
+    "Estimates the state of a machine from the measurements in a log, a rosbag or a table, faster "
     "than\n"
     "real time: states that are not measured, and the parameters that --settings name; reports "
     "where\n"
@@ -47,6 +47,7 @@ struct FollowRequest {
   std::optional<std::string> output;
   std::optional<std::string> sample;  // s
   std::string lcm_prefix = kDefaultLcmPrefix;
+  std::optional<std::string> import;
   bool json = false;
   bool insist = false;
 };
@@ -96,7 +97,7 @@ int follow(const FollowRequest& request) {
   constexpr std::int64_t kParts = 1000;
   ProgressBar progress(request.log, kParts, false, request.insist);
   const FollowedLog run = followLog(
-      twin, settings, request.log, request.lcm_prefix, writer.get(), every,
+      twin, settings, {request.log, request.lcm_prefix, request.import}, writer.get(), every,
       [&](std::uint64_t bytes, std::uint64_t all) {
         progress.show(static_cast<std::int64_t>(
             static_cast<double>(kParts) * static_cast<double>(bytes) / static_cast<double>(all)));
@@ -116,7 +117,7 @@ void addFollowCommand(const ProgramCommand& twin, int& status) {
   addSceneOption(command, request->scene);
   command
       .option("LOG", request->log,
-              "LCM log or rosbag with measurements, rig.lcmlog, rig.bag, or a table, swing.csv")
+              "LCM log, rosbag, table or UFF file with measurements: rig.lcmlog, rig.bag, rig.csv")
       .required()
       .type("");
   command
@@ -133,6 +134,7 @@ void addFollowCommand(const ProgramCommand& twin, int& status) {
       .option("--lcm-prefix", request->lcm_prefix,
               "prefix of the machine's channels; default: TWIN_")
       .type("PREFIX");
+  addImportOption(command, request->import);
   addJsonOption(command, request->json);
   addInsistOption(command, request->insist);
   command.takeUnits();

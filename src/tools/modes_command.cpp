@@ -2,6 +2,7 @@
 
 #include "messages/input_error.h"
 #include "requests/rotor_requests.h"
+#include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/report_options.h"
 
@@ -14,7 +15,8 @@ constexpr const char* kModesDescription =
     "a\nlog of the running machine, those identified from its ambient vibration, with intervals.";
 
 constexpr const char* kModesFooter =
-    "LOG is an LCM log with the measurements of the scene's `sensors`, displacement probes and a\n"
+    "LOG is an LCM log, a rosbag or a table with the measurements of the scene's `sensors`, "
+    "displacement probes and a\n"
     "keyphasor, as `twin simulate --measure` writes them, or with the whirl that a twin "
     "published.\n"
     "The synchronous motion is removed; poles that persist over the model orders are modes. The\n"
@@ -60,6 +62,7 @@ void addModesCommand(const ProgramCommand& twin, int& status) {
   command
       .option("--lcm-prefix", request->lcm_prefix, "prefix of the log's channels; default: TWIN_")
       .type("PREFIX");
+  addImportOption(command, request->import);
   command.option("--modes", request->modes, "number of modes drawn; default: 6").type("N");
   command.footer(kModesFooter);
   command.callback([given, &status] { status = showModes(*given); });

@@ -17,7 +17,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kMonitorDescription =
-    "Replays an LCM log or a rosbag through the monitor, faster than real time: which alerts it\n"
+    "Replays a log, a rosbag or a table through the monitor, faster than real time: which alerts "
+    "it\n"
     "raises and when, and the smallest margins; which resonances the run-ups passed, and "
     "the\ncomponents of the full spectrum.";
 
@@ -38,6 +39,7 @@ struct MonitorRequest {
   std::optional<std::string> settings;
   std::optional<std::string> output, csv;
   std::string lcm_prefix = kDefaultLcmPrefix;
+  std::optional<std::string> import;
   std::optional<double> spectrum_at;  // s
   bool json = false;
   bool insist = false;
@@ -56,7 +58,7 @@ int monitor(const MonitorRequest& request) {
   constexpr std::int64_t kParts = 1000;
   ProgressBar progress(request.log, kParts, false, request.insist);
   const MonitoredLog run = monitorLog(
-      scene, settings, request.log, request.lcm_prefix, request.spectrum_at,
+      scene, settings, {request.log, request.lcm_prefix, request.import}, request.spectrum_at,
       [&](std::uint64_t bytes, std::uint64_t all) {
         progress.show(
             static_cast<std::int64_t>(static_cast<double>(kParts) * static_cast<double>(bytes) /
@@ -80,7 +82,9 @@ void addMonitorCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand("monitor", kMonitorDescription);
   const auto request = std::make_shared<MonitorRequest>();
   addSceneOption(command, request->scene);
-  command.option("LOG", request->log, "LCM log or rosbag, such as demo.lcmlog, night.bag")
+  command
+      .option("LOG", request->log,
+              "LCM log, rosbag, or table of measurements: demo.lcmlog, night.bag, run.csv")
       .required()
       .type("");
   command
@@ -96,6 +100,7 @@ void addMonitorCommand(const ProgramCommand& twin, int& status) {
       .quantity("--spectrum-at", request->spectrum_at, kInstant,
                 "end of the window of the full spectrum, simulated time", "the end of the log")
       .type("S");
+  addImportOption(command, request->import);
   addCsvOption(command, request->csv);
   addJsonOption(command, request->json);
   addInsistOption(command, request->insist);

@@ -60,9 +60,9 @@ struct RecordRequest {
 };
 
 /// One file of a recording.
-class Recording {
+class LiveRecording {
  public:
-  Recording(const std::string& path, const std::string& prefix) : path_(path), pending_(path) {
+  LiveRecording(const std::string& path, const std::string& prefix) : path_(path), pending_(path) {
     if (std::filesystem::path(path).extension() == ".mcap") {
       encoder_.emplace(namespaceOfPrefix(prefix));
       mcap_.emplace(pending_.path());
@@ -211,7 +211,7 @@ class Recorder {
 
   const RecordRequest& request_;
   ChannelCounts counts_;
-  std::optional<Recording> file_;
+  std::optional<LiveRecording> file_;
   std::vector<std::string> files_;
   std::optional<std::int64_t> first_;  ///< [us], of the file
   std::string failure_;

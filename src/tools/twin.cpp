@@ -124,6 +124,7 @@ int run(int argc, const char* const* argv) {
   addReportCommand(commands, status);
   addLoopCommand(commands, status);
   addModesCommand(commands, status);
+  addBodeCommand(commands, status);
   addBalanceCommand(commands, status);
   addTradeoffCommand(commands, status);
   addSweepCommand(commands, status);

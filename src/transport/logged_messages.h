@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "transport/channels.h"
 
@@ -19,7 +20,8 @@ struct LoggedMessages {
   std::string first_damage;    ///< "byte 1234: what was expected there"; "": none
   /// Of a bag: other prefixes under which it has messages of the selected kinds.
   std::set<std::string> elsewhere;
-  std::uint64_t out_of_order = 0;  ///< messages after one with a later stamp
+  std::uint64_t out_of_order = 0;    ///< messages after one with a later stamp
+  std::vector<std::string> remarks;  ///< of another kind of file that is read as a log
 };
 
 /// Order of an LCM log: by stamps, or that of the file, for readers that distinguish an appended

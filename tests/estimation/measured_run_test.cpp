@@ -22,7 +22,7 @@ MeasuredRun read(const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
   const auto remove = [&] { std::remove(path.c_str()); };
   try {
-    MeasuredRun run = readMeasuredRun(path, "t", {"a"});
+    MeasuredRun run = readMeasuredRun(path, {}, {{"a"}});
     remove();
     return run;
   } catch (...) {
@@ -102,8 +102,10 @@ TEST(MeasuredRun, RefusesWhatCannotBeMeant) {
   EXPECT_THAT(inputError("t,a\n0,1\n1,2,7\n"), HasSubstr("line 3: expected at most 2 values"));
   EXPECT_THAT(inputError("t,a\n0,1\n1,2\n"), HasSubstr("must have 5 rows of different instants"));
   EXPECT_THAT(inputError("t,b\n0,1\n1,2\n"), HasSubstr("no column 'a'"));
-  EXPECT_THAT(inputError("t,a\n0,1\n1,nan\n"), HasSubstr("line 3"));
-  EXPECT_THAT(inputError("t,a\n0,1\n1e99,2\n"), HasSubstr("must be from -4.2e+09 to 4.2e+09 s"));
+  EXPECT_THAT(inputError("t,a\n0,1\n1,x\n"),
+              HasSubstr("line 3: a must be a finite number, found 'x'"));
+  EXPECT_THAT(inputError("t,a\n0,1\n1e99,2\n"),
+              HasSubstr("line 3: the time must be within 9e+09 s"));
 }
 
 }  // namespace measured_run_test

@@ -32,7 +32,7 @@ MeasuredChannel channel(const std::string& name, std::size_t state) {
 /// The record has one swing after another, with nothing measured between.
 std::vector<StudyRun> swings() {
   const MeasuredRun all = readMeasuredRun(WHIRL_TWIN_SOURCE "/config/records/multi_arm_swings.csv",
-                                          "time", {"theta1", "theta2"});
+                                          {}, {{"theta1"}, {"theta2"}});
   std::vector<StudyRun> runs;
   for (std::size_t k = 0; k < all.time.size(); ++k) {
     if (k == 0 || all.time[k] - all.time[k - 1] > kBetweenSwings) {

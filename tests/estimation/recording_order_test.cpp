@@ -58,7 +58,7 @@ StudyRun settled(const std::vector<Row>& rows, std::optional<bool> wrap = std::n
   channel.column = "q";
   channel.wrap = wrap;
   run.measured = {channel};
-  settleUnits(run, "time", {}, 0.001);
+  settleUnits(run, {}, 0.001);
   return run;
 }
 

@@ -1,0 +1,35 @@
+// How a table of measurements is assigned to the sensors of a scene (table_import.h).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "scene/table_dialect.h"
+
+namespace whirl_twin {
+
+struct ColumnImport {
+  std::string column;  ///< "": that of the channel's name
+  std::string unit;    ///< "": that of the heading, or the channel's
+  std::string scale;   ///< of a voltage: "200 mV/mil"; "": it is none
+  double gap = 0.0;    ///< [V], at 0
+};
+
+struct KeyphasorImport {
+  std::string column;                           ///< "": found by its name
+  std::optional<double> threshold, hysteresis;  ///< [V]
+  std::string slope;                            ///< rising or falling; "": found
+};
+
+struct ImportSettings {
+  TableSettings table;
+  std::map<std::string, ColumnImport> channels;       ///< by channel, or source/channel
+  std::map<std::string, KeyphasorImport> keyphasors;  ///< by source; "" if there is one only
+};
+
+/// Of a YAML file with the keys of a table (scene/table_dialect.h), `columns` and `keyphasor`.
+/// Throws InputError with all its errors.
+ImportSettings readImportSettings(const std::string& path);
+
+}  // namespace whirl_twin
