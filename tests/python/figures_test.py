@@ -14,7 +14,7 @@ import tempfile
 import unittest
 
 try:
-    import matplotlib  # noqa: F401
+    from matplotlib.text import Text
     import numpy as np
 except ImportError as error:
     print(f"skipped: {error}")
@@ -49,7 +49,7 @@ def texts_of(figure):
         for axis in (ax.xaxis, ax.yaxis):
             found.append(axis.label)
             found += [label for tick in axis._update_ticks() for label in (tick.label1, tick.label2)]
-    return [(text.get_text(), text.get_window_extent()) for text in found
+    return [(text.get_text(), Text.get_window_extent(text)) for text in found  # without an arrow
             if text.get_visible() and text.get_text().strip()]
 
 
