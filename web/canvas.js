@@ -27,6 +27,32 @@ export function cleared(canvas) {
   return {context, width, height};
 }
 
+const LONGEST_ARC = 2;  // rad, of the shaft, from one sample to the next
+
+/// The duration of an orbit that is shown, about three turns of the shaft [s].
+export function orbitTime(speed) {
+  return Math.min(3, Math.max(0.05, 3 * 2 * Math.PI / Math.max(1e-3, Math.abs(speed))));
+}
+
+/// Adds the line through samples {time, rate, speed} to the path; at(sample, k) is on the screen, k seconds along its rate.
+/// With rates it is a curve; samples too far apart for that are dots.
+export function curve(context, samples, at) {
+  samples.forEach((one, i) => {
+    const before = samples[i - 1];
+    const third = before ? (one.time - before.time) / 3 : 0;
+    if (!before || !one.rate) {
+      context.lineTo(...at(one, 0));
+    } else if (3 * third * Math.abs(one.speed) < LONGEST_ARC) {
+      context.bezierCurveTo(...at(before, third), ...at(one, -third), ...at(one, 0));
+    } else {
+      const [x, y] = at(one, 0);
+      context.moveTo(x + 1, y);
+      context.arc(x, y, 1, 0, 2 * Math.PI);
+      context.moveTo(x, y);
+    }
+  });
+}
+
 /// Scale and prefix for values up to `largest` of a unit: micrometres for small lengths.
 export function scaleOf(largest, unit) {
   if (unit === "m" && largest > 0 && largest < 0.1) {

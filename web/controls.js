@@ -3,6 +3,7 @@
 import {short} from "./canvas.js";
 
 const STEPS = 1000;
+const APART = 100;  // ms, between values that are sent
 
 /// Limits of a slider and its scale, from the range of the model and the value at the start.
 function spanOf(range, value) {
@@ -36,6 +37,13 @@ export class Slider {
     this.row.append(name, this.range, this.number, unit);
     this.show(number.value);
     this.range.addEventListener("input", () => this.set(this.at(this.range.value / STEPS)));
+    this.range.addEventListener("pointerdown", () => this.dragged = true);
+    for (const end of ["pointerup", "pointercancel"]) {
+      this.range.addEventListener(end, () => {
+        this.dragged = false;
+        setTimeout(() => this.show(this.known), 3 * APART);  // what the last value has led to
+      });
+    }
     this.number.addEventListener("input", () => this.editing = true);
     this.number.addEventListener("change", () => {
       this.editing = false;
@@ -51,24 +59,25 @@ export class Slider {
     return whole ? Math.round(value) : Number(value.toPrecision(4));
   }
 
-  /// Sends a value at most ten times a second, the newest at last.
+  /// Sends a value at once, further ones at most ten times a second, the newest at last.
   set(value) {
     this.number.value = short(value, 6);
     this.next = value;
     this.timer ??= setTimeout(async () => {
       this.timer = undefined;
+      this.sent = performance.now();
       const sent = this.next;
       const answer = this.change(sent);
       if (answer) {
         this.show(await answer ? sent : this.known);
       }
-    }, 100);
+    }, Math.max(0, (this.sent ?? -Infinity) + APART - performance.now()));
   }
 
   /// The value that the twin has.
   show(value) {
     this.known = value;
-    if (this.timer !== undefined || this.editing) {
+    if (this.timer !== undefined || this.editing || this.dragged) {
       return;
     }
     const {low, high, logarithmic} = this.span;

@@ -17,6 +17,7 @@ const make = (tag, properties = {}, ...children) => {
 let views = [];               // with draw()
 const sliders = new Map();    // of parameters, by name
 let paused = false, readOnly = false, hideMessage;
+let alerts = [], unknown = "";  // active ones, or why they are not known
 
 function showMessage(text) {
   $("message").textContent = text;
@@ -30,12 +31,25 @@ const client = new Client(`ws://${location.host}/${location.search}`, {
   channels() {
     client.subscribe("scene", build);
     client.subscribe("loop", showLoop);
-    client.subscribe("alerts", message => showAlerts(message.alerts));
-    client.subscribe("server", counts => $("counts").textContent =
-      `clients: ${counts.clients}, messages sent: ${counts.sent}, lost by slow clients: ${counts.dropped}`);
+    client.subscribe("alerts", message => {
+      alerts = message.alerts;
+      showAlerts();
+    });
+    client.subscribe("server", counts => {
+      $("counts").textContent =
+        `clients: ${counts.clients}, messages sent: ${counts.sent}, lost by slow clients: ${counts.dropped}`;
+      if (unknown !== counts.silence) {
+        unknown = counts.silence;
+        showAlerts();
+      }
+    });
     client.watchParameters();
   },
-  close() { showState("lost", "disconnected"); },
+  close() {
+    showState("lost", "disconnected");
+    unknown = "no connection to the server";
+    showAlerts();
+  },
   status: showMessage,
   parameters(values) { values.forEach(one => sliders.get(one.name)?.show(one.value)); },
 });
@@ -67,9 +81,13 @@ function sentenceOf(alert) {
   return about + alert.text + (alert.latched ? " (latched)" : "");
 }
 
-function showAlerts(alerts) {
+function showAlerts() {
   const list = $("alarm-list");
   list.replaceChildren();
+  if (unknown) {
+    list.append(make("li", {}, make("span", {className: "severity WARNING", textContent: "UNKNOWN"}),
+                     make("span", {textContent: `${unknown}; the alarms below are the last known ones`})));
+  }
   for (const alert of alerts) {
     const severity = ["INFO", "WARNING", "DANGER"][alert.severity];
     const row = make("li", {className: alert.acknowledged ? "acknowledged" : ""},
@@ -82,7 +100,7 @@ function showAlerts(alerts) {
     }
     list.append(row);
   }
-  if (!alerts.length) {
+  if (!alerts.length && !unknown) {
     list.append(make("li", {className: "quiet", textContent: "none"}));
   }
   $("reset-alarms").hidden = readOnly || !alerts.length;

@@ -1,6 +1,6 @@
 // Traces over the last seconds of simulated time, one strip for each unit, and orbits.
 
-import {cleared, color, quantity, scaleOf, short, ticks} from "./canvas.js";
+import {cleared, color, curve, orbitTime, quantity, scaleOf, short, ticks} from "./canvas.js";
 
 const WINDOW = 10;         // s, simulated
 const MOST = 20000;        // samples of a line
@@ -134,21 +134,20 @@ export class Orbit {
   constructor(canvas, name) {
     this.canvas = canvas;
     this.name = name;
-    this.points = [];  // time, x, y, speed
+    this.points = [];  // {time, at, rate, speed}
   }
 
   take(samples) {
-    const [x, y] = samples.values;
-    samples.time.forEach((time, i) => this.points.push([time, x[i], y[i], samples.speed[i]]));
-    const [end, , , speed] = this.points[this.points.length - 1] ?? [0, 0, 0, 0];
-    const shown = Math.min(3, Math.max(0.05, 3 * 2 * Math.PI / Math.max(1e-3, Math.abs(speed))));  // s
-    this.points = this.points.filter(point => point[0] <= end && point[0] >= end - shown).slice(-3000);
+    const [x, y, xRate, yRate] = samples.values;
+    samples.time.forEach((time, i) => x[i] !== null && y[i] !== null && this.points.push(
+      {time, at: [x[i], y[i]], rate: [xRate[i], yRate[i]], speed: samples.speed[i]}));
+    const {time: end, speed} = this.points[this.points.length - 1] ?? {time: 0, speed: 0};
+    this.points = this.points.filter(one => one.time <= end && one.time >= end - orbitTime(speed)).slice(-3000);
   }
 
   draw() {
     const {context, width, height} = cleared(this.canvas);
-    const points = this.points.filter(point => point[1] !== null && point[2] !== null);
-    const largest = points.reduce((most, point) => Math.max(most, Math.hypot(point[1], point[2])), 0);
+    const largest = this.points.reduce((most, one) => Math.max(most, Math.hypot(...one.at)), 0);
     // Calm: the scale changes by a fifth or more.
     if (!(largest <= this.range && largest > 0.6 * this.range)) {
       this.range = 1.2 * largest || 1e-6;
@@ -171,13 +170,14 @@ export class Orbit {
     context.strokeStyle = color("line-1");
     context.lineWidth = 1.5;
     context.beginPath();
-    points.forEach(point => context.lineTo(middle + scale * point[1], centre - scale * point[2]));
+    const at = (one, k) => [middle + scale * (one.at[0] + k * one.rate[0]), centre - scale * (one.at[1] + k * one.rate[1])];
+    curve(context, this.points, at);
     context.stroke();
-    const last = points[points.length - 1];
+    const last = this.points[this.points.length - 1];
     if (last) {
       context.fillStyle = color("mark");
       context.beginPath();
-      context.arc(middle + scale * last[1], centre - scale * last[2], 4, 0, 2 * Math.PI);
+      context.arc(...at(last, 0), 4, 0, 2 * Math.PI);
       context.fill();
     }
     context.fillStyle = color("faint");

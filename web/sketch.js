@@ -1,7 +1,7 @@
 // Draws the sketch of a system: bodies, springs, supports (src/mechanics/sketch.h), far parts first.
 // Axes: x to the right, z up, y into the picture; a spatial one is seen from above and from the left.
 
-import {cleared, color, short} from "./canvas.js";
+import {cleared, color, curve, orbitTime, short} from "./canvas.js";
 
 const CORNERS = 40;  // of a disc
 const TRAIL = 1.5;   // s, simulated
@@ -43,15 +43,15 @@ export class SketchView {
   }
 
   take(picture) {
-    if (this.picture && picture.time < this.picture.time) {
-      this.trail = [];
-    }
-    if (picture.magnification !== this.picture?.magnification) {
+    if (this.picture && (picture.time < this.picture.time || picture.magnification !== this.picture.magnification)) {
       this.trail = [];
     }
     this.picture = picture;
-    picture.samples.path.forEach((point, i) => this.trail.push([picture.samples.time[i], point]));
-    const old = this.trail.findIndex(one => one[0] >= picture.time - TRAIL);
+    const {time, path, values, speed} = picture.samples, rotor = picture.names.includes("x_rate");
+    path.forEach((at, i) => this.trail.push(
+      {time: time[i], at, speed: speed[i],
+       rate: rotor && [0, picture.magnification * values[2][i], picture.magnification * values[3][i]]}));
+    const old = this.trail.findIndex(one => one.time >= picture.time - (rotor ? orbitTime(picture.speed) : TRAIL));
     this.trail.splice(0, old < 0 ? this.trail.length : old);
   }
 
@@ -88,7 +88,11 @@ export class SketchView {
     sketch.discs.forEach(one => part([one.at], () => this.disc(context, one)));
     sketch.balls.forEach(one => part([one.at], () => this.ball(context, one)));
     parts.sort((a, b) => b.depth - a.depth).forEach(one => one.paint());
-    this.path(context, this.trail.map(one => one[1]), color("line-4"), 1.5);
+    context.beginPath();
+    curve(context, this.trail, (one, k) => this.project(one.rate ? add(one.at, one.rate, k) : one.at).slice(0, 2));
+    context.strokeStyle = color("line-4");
+    context.lineWidth = 1.5;
+    context.stroke();
     sketch.arrows.forEach(one => this.arrow(context, one));
     if (picture.magnification !== 1) {
       context.fillStyle = color("faint");
@@ -97,22 +101,26 @@ export class SketchView {
     this.canvas.setAttribute("aria-label", `${this.name}, drawing at ${short(picture.time)} s`);
   }
 
-  path(context, points, style, width) {
-    context.strokeStyle = style;
-    context.lineWidth = width;
+  /// Begins the path through these points.
+  through(context, points) {
     context.beginPath();
     points.forEach(point => context.lineTo(...this.project(point).slice(0, 2)));
+  }
+
+  path(context, points, style, width) {
+    this.through(context, points);
+    context.strokeStyle = style;
+    context.lineWidth = width;
     context.stroke();
   }
 
-  polygon(context, points, style) {
-    context.beginPath();
-    points.forEach(point => context.lineTo(...this.project(point).slice(0, 2)));
+  polygon(context, points, style, edge = color("outline"), width = 1) {
+    this.through(context, points);
     context.closePath();
     context.fillStyle = style;
     context.fill();
-    context.strokeStyle = color("outline");
-    context.lineWidth = 1;
+    context.strokeStyle = edge;
+    context.lineWidth = width;
     context.stroke();
   }
 
@@ -173,13 +181,7 @@ export class SketchView {
     this.polygon(context, back, side);
     for (let k = 0; k < CORNERS; ++k) {
       const next = (k + 1) % CORNERS;
-      context.beginPath();
-      [back[k], back[next], front[next], front[k]].forEach(
-        point => context.lineTo(...this.project(point).slice(0, 2)));
-      context.fillStyle = context.strokeStyle = side;
-      context.lineWidth = 0.5;
-      context.fill();
-      context.stroke();
+      this.polygon(context, [back[k], back[next], front[next], front[k]], side, side, 0.5);
     }
     this.polygon(context, front, face);
     return {rim, near};

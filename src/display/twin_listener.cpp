@@ -47,7 +47,8 @@ std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all,
       continue;
     }
     const std::size_t second = slash == std::string::npos ? slash : rest.find('/', slash + 1);
-    if (isType<ControllerMargins>(info.datatype) && second != std::string::npos) {
+    if ((isType<ControllerMargins>(info.datatype) || isType<MotorState>(info.datatype)) &&
+        second != std::string::npos) {
       topics.push_back({info.name, info.datatype, rest.substr(slash + 1, second - slash - 1)});
     } else if (slash == std::string::npos || second != std::string::npos) {
       continue;
@@ -56,7 +57,8 @@ std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all,
       topics.push_back({info.name, info.datatype, rest.substr(slash + 1)});
     } else if (isType<WhirlState>(info.datatype) || isType<PendulumState>(info.datatype) ||
                isType<StabilityMargin>(info.datatype) || isType<ParameterChange>(info.datatype) ||
-               isType<OrderState>(info.datatype) || isType<FollowState>(info.datatype)) {
+               isType<OrderState>(info.datatype) || isType<FollowState>(info.datatype) ||
+               isType<EnsembleState>(info.datatype)) {
       topics.push_back({info.name, info.datatype, rest.substr(0, slash)});
     }
   }
@@ -84,29 +86,37 @@ void TwinListener::discover() {
     }
   }
   for (const auto& topic : topics) {
-    if (subscriptions_.count(topic.topic) == 0) {
+    const bool has_handler =
+        message_handler_ || !(isType<MotorState>(topic.type) || isType<EnsembleState>(topic.type));
+    if (has_handler && subscriptions_.count(topic.topic) == 0) {
       subscriptions_[topic.topic] = {topic, subscribe(topic)};
     }
   }
 }
 
-template <class Message>
+template <class Type>
 ros::Subscriber TwinListener::listen(const TwinTopic& topic,
-                                     std::function<void(const typename Message::ConstPtr&)> take) {
-  using Event = ros::MessageEvent<const Message>;
+                                     std::function<void(const typename Type::ConstPtr&)> take) {
+  using Event = ros::MessageEvent<const Type>;
   const boost::function<void(const Event&)> checked = [this, take = std::move(take),
                                                        name = topic.topic](const Event& event) {
-    const typename Message::ConstPtr message = event.getConstMessage();
-    if constexpr (!std::is_same_v<Message, AlertArray>) {  // of which all is text
+    const typename Type::ConstPtr message = event.getConstMessage();
+    if constexpr (std::is_same_v<Type, AlertArray>) {  // of which all is text
+      if (isOfHolder(name, event.getPublisherName())) {
+        take(message);
+      }
+    } else {
       try {
-        fromRos(*message);
+        const auto state = fromRos(*message);
+        if (isOfHolder(name, event.getPublisherName())) {
+          take(message);
+          if (message_handler_) {
+            message_handler_(state);
+          }
+        }
       } catch (const RejectedMessage& why) {
         ROS_WARN_THROTTLE(5.0, "%s: rejected: %s", name.c_str(), why.what());
-        return;
       }
-    }
-    if (isOfHolder(name, event.getPublisherName())) {
-      take(message);
     }
   };
   return node_.subscribe<const Event&>(topic.topic, kQueue, checked, ros::VoidConstPtr(),
@@ -210,6 +220,12 @@ ros::Subscriber TwinListener::subscribe(const TwinTopic& topic) {
         loop_handler_(*loop);
       }
     });
+  }
+  if (isType<MotorState>(topic.type)) {
+    return listen<MotorState>(topic, [](const MotorState::ConstPtr&) {});
+  }
+  if (isType<EnsembleState>(topic.type)) {
+    return listen<EnsembleState>(topic, [](const EnsembleState::ConstPtr&) {});
   }
   return listen<AlertArray>(topic, [this](const AlertArray::ConstPtr& alerts) {
     alerts_ = alerts;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "messages/message.h"
 #include "messages/monitor_status.h"
 #include "monitoring/whirl_vibration.h"
 #include "whirl_twin/AlertArray.h"
@@ -64,6 +65,7 @@ class TwinListener {
       std::function<void(const std::string& controller, const ControllerMargins::ConstPtr&)>;
   using LoopHandler = std::function<void(const LoopStatistics&)>;
   using AlertHandler = std::function<void(const AlertArray&)>;
+  using MessageHandler = std::function<void(const Message&)>;
 
   /// Called with every state, in the spinner's thread; must be set before the first discover().
   void onWhirl(WhirlHandler handler) { whirl_handler_ = std::move(handler); }
@@ -76,6 +78,9 @@ class TwinListener {
   }
   void onLoop(LoopHandler handler) { loop_handler_ = std::move(handler); }
   void onAlerts(AlertHandler handler) { alert_handler_ = std::move(handler); }
+  /// Every message of the twin and its monitor but the alerts, also of kinds that no other handler
+  /// takes.
+  void onMessage(MessageHandler handler) { message_handler_ = std::move(handler); }
 
   /// Queries the master and updates the subscriptions. A vanished topic is dropped only when
   /// another appears, so a stopped twin stays on the screen until the next one starts.
@@ -107,9 +112,9 @@ class TwinListener {
 
  private:
   ros::Subscriber subscribe(const TwinTopic& topic);
-  template <class Message>
+  template <class Type>
   ros::Subscriber listen(const TwinTopic& topic,
-                         std::function<void(const typename Message::ConstPtr&)> take);
+                         std::function<void(const typename Type::ConstPtr&)> take);
   void forget(const TwinTopic& topic);
   /// Each topic is bound to one node, the first publisher received, until its timeout.
   bool isOfHolder(const std::string& topic, const std::string& publisher);
@@ -123,6 +128,7 @@ class TwinListener {
   ControllerMarginsHandler controller_margins_handler_;
   LoopHandler loop_handler_;
   AlertHandler alert_handler_;
+  MessageHandler message_handler_;
   struct Subscription {
     TwinTopic topic;
     ros::Subscriber subscriber;

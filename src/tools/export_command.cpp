@@ -45,6 +45,7 @@ struct ExportRequest {
   std::string file;
   std::optional<std::string> csv, bag, mcap;
   std::optional<std::string> compress;
+  std::string profile = "ros1";
   std::string lcm_prefix = kDefaultLcmPrefix;
   ChannelFilter channels;
   bool force = false;
@@ -156,9 +157,10 @@ class Export {
     PendingFile pending(request_.mcap ? *request_.mcap : *request_.bag);
     std::unique_ptr<RecordingWriter> writer;
     if (request_.mcap) {
-      writer = std::make_unique<McapWriter>(pending.path(), request_.compress
-                                                                ? McapWriter::Compression::kLz4
-                                                                : McapWriter::Compression::kNone);
+      writer = std::make_unique<McapWriter>(
+          pending.path(),
+          request_.compress ? McapWriter::Compression::kLz4 : McapWriter::Compression::kNone,
+          request_.profile == "ros2" ? McapWriter::Profile::kRos2 : McapWriter::Profile::kRos1);
     } else {
       writer = std::make_unique<BagWriter>(pending.path());
     }
@@ -211,6 +213,9 @@ int exportLogFile(const ExportRequest& request) {
     throw InputError(
         fmt::format("--compress: must be lz4, with --mcap; found '{}'", *request.compress));
   }
+  if (request.profile != "ros1" && !request.mcap) {
+    throw InputError("--profile: must be with --mcap");
+  }
   if (request.compress && !McapWriter::has(McapWriter::Compression::kLz4)) {
     throw InputError(
         "--compress: built without lz4 (liblz4-dev): run `scripts/setup`, then build again");
@@ -232,6 +237,10 @@ void addExportCommand(const ProgramCommand& twin, int& status) {
   command.option("--bag", request->bag, "write a rosbag").type("FILE");
   command.option("--mcap", request->mcap, "write an MCAP file").type("FILE");
   command.option("--compress", request->compress, "lz4: the chunks of the MCAP file").type("lz4");
+  command
+      .option("--profile", request->profile,
+              "messages of the MCAP file: ros1, or ros2 for the programs of ROS 2; default: ros1")
+      .among({"ros1", "ros2"});
   addChannelOption(command, request->channels);
   command
       .option("--lcm-prefix", request->lcm_prefix,

@@ -89,58 +89,80 @@ void McapWriter::Span::add(std::uint64_t time) {
   any = true;
 }
 
-McapWriter::McapWriter(const std::string& path, Compression compression)
-    : file_(path), compression_(compression) {
+McapWriter::McapWriter(const std::string& path, Compression compression, Profile profile)
+    : file_(path), compression_(compression), profile_(profile) {
   LittleEndian header, begin;
-  header.text("ros1");
+  header.text(profile == Profile::kRos2 ? "ros2" : "ros1");
   header.text("whirl_twin");
   begin.bytes(kMcapMagic);
   putMcapRecord(kMcapHeader, header, begin);
   file_.write(begin);
 }
 
+McapWriter::Schema& McapWriter::schemaOf(const RecordedTopic& topic) {
+  const std::string key = topic.type + '\n' + topic.md5sum;
+  const auto found = schemas_.find(key);
+  if (found != schemas_.end()) {
+    return found->second;
+  }
+  Schema schema;
+  if (profile_ == Profile::kRos2) {
+    schema.ros2 = std::make_unique<Ros2Message>(topic.definition);
+  }
+  schema.id = numbered(schemas_.size());
+  LittleEndian content;
+  content.number(schema.id, 2);
+  content.text(schema.ros2 ? ros2TypeName(topic.type) : topic.type);
+  content.text(schema.ros2 ? "ros2msg" : "ros1msg");
+  content.text(schema.ros2 ? schema.ros2->definition() : topic.definition);
+  putMcapRecord(kMcapSchema, content, chunk_);
+  putMcapRecord(kMcapSchema, content, schema_records_);
+  return schemas_.emplace(key, std::move(schema)).first->second;
+}
+
 McapWriter::Channel& McapWriter::channelOf(const RecordedTopic& topic) {
-  const auto [place, is_new] = channels_.try_emplace(topic.key());
-  if (!is_new) {
-    return place->second;
+  const auto found = channels_.find(topic.key());
+  if (found != channels_.end()) {
+    return found->second;
   }
-  const auto [schema, is_new_schema] = schemas_.try_emplace(topic.type + '\n' + topic.md5sum);
-  if (is_new_schema) {
-    schema->second = numbered(schemas_.size() - 1);
-    LittleEndian content;
-    content.number(schema->second, 2);
-    content.text(topic.type);
-    content.text("ros1msg");
-    content.text(topic.definition);
-    putMcapRecord(kMcapSchema, content, chunk_);
-    putMcapRecord(kMcapSchema, content, schema_records_);
-  }
-  place->second.id = numbered(channels_.size() - 1);
+  Schema& schema = schemaOf(topic);
+  Channel channel;
+  channel.ros2 = schema.ros2.get();
+  channel.id = numbered(channels_.size());
   LittleEndian metadata, content;
-  const auto say = [&](std::string_view name, std::string_view value) {
+  const auto put = [&](std::string_view name, std::string_view value) {
     metadata.text(name);
     metadata.text(value);
   };
-  say("md5sum", topic.md5sum);
+  if (channel.ros2) {
+    put("offered_qos_profiles", "");
+  } else {
+    put("md5sum", topic.md5sum);
+  }
   if (!topic.callerid.empty()) {
-    say("callerid", topic.callerid);
+    put("callerid", topic.callerid);
   }
   if (topic.latching) {
-    say("latching", "true");
+    put("latching", "true");
   }
-  content.number(place->second.id, 2);
-  content.number(schema->second, 2);
+  content.number(channel.id, 2);
+  content.number(schema.id, 2);
   content.text(topic.topic);
-  content.text("ros1");
+  content.text(channel.ros2 ? "cdr" : "ros1");
   content.block(metadata);
   putMcapRecord(kMcapChannel, content, chunk_);
   putMcapRecord(kMcapChannel, content, channel_records_);
-  return place->second;
+  return channels_.emplace(topic.key(), std::move(channel)).first->second;
 }
 
 void McapWriter::write(const RecordedTopic& topic, std::int64_t time, const std::uint8_t* data,
                        std::size_t size) {
   Channel& channel = channelOf(topic);
+  if (channel.ros2) {
+    const LittleEndian& converted = channel.ros2->convert(data, size);
+    data = converted.data();
+    size = converted.size();
+  }
   const auto instant = static_cast<std::uint64_t>(time);
   if (channel.index.empty()) {
     in_chunk_.push_back(&channel);
@@ -162,7 +184,7 @@ void McapWriter::write(const RecordedTopic& topic, std::int64_t time, const std:
 }
 
 void McapWriter::flush() {
-  if (!chunk_.empty()) {
+  if (!in_chunk_.empty()) {
     writeChunk();
   }
   file_.flush();

@@ -1,5 +1,6 @@
-// Writes MCAP files of ROS 1 messages for PlotJuggler, Foxglove and Lichtblick (MCAP format
-// specification, version 0, profile "ros1"; registry: message encoding "ros1", schemas "ros1msg").
+// Writes MCAP files of ROS messages for PlotJuggler, Foxglove and Lichtblick (MCAP format
+// specification, version 0; registry: profile "ros1", message encoding "ros1", schemas "ros1msg",
+// or profile "ros2", "cdr", "ros2msg", for the programs of ROS 2).
 //
 // A file is magic bytes and records: opcode of 1 byte, length of 8, content; little-endian.
 //   header | chunks of schemas, channels and messages, each with an index of its messages by
@@ -11,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "transport/log_export.h"
 #include "transport/output_file.h"
 #include "transport/recording_writer.h"
+#include "transport/ros2_message.h"
 #include "transport/ros_encode.h"
 
 namespace whirl_twin {
@@ -30,7 +33,10 @@ class McapWriter final : public RecordingWriter {
   /// Whether this build supports it.
   static bool has(Compression compression);
 
-  explicit McapWriter(const std::string& path, Compression compression = Compression::kNone);
+  enum class Profile { kRos1, kRos2 };
+
+  explicit McapWriter(const std::string& path, Compression compression = Compression::kNone,
+                      Profile profile = Profile::kRos1);
 
   void write(const RecordedTopic& topic, std::int64_t time, const std::uint8_t* data,
              std::size_t size) override;
@@ -45,22 +51,29 @@ class McapWriter final : public RecordingWriter {
   struct Channel {
     std::uint16_t id = 0;
     std::uint32_t messages = 0;
-    LittleEndian index;  ///< of the chunk: time and offset of each message
+    Ros2Message* ros2 = nullptr;  ///< null: as they are
+    LittleEndian index;           ///< of the chunk: time and offset of each message
   };
   struct Span {
     std::uint64_t first = 0, last = 0;  ///< [ns]
     bool any = false;
     void add(std::uint64_t time);
   };
+  struct Schema {
+    std::uint16_t id = 0;
+    std::unique_ptr<Ros2Message> ros2;
+  };
   Channel& channelOf(const RecordedTopic& topic);
+  Schema& schemaOf(const RecordedTopic& topic);
   void writeChunk();
   void writeSummary();
 
   OutputFile file_;
   Compression compression_;
-  std::map<std::string, std::uint16_t> schemas_;  ///< by type and MD5 sum
-  std::map<std::string, Channel> channels_;       ///< by RecordedTopic::key()
-  std::vector<Channel*> in_chunk_;                ///< channels with messages in the chunk
+  Profile profile_;
+  std::map<std::string, Schema> schemas_;    ///< by type and MD5 sum
+  std::map<std::string, Channel> channels_;  ///< by RecordedTopic::key()
+  std::vector<Channel*> in_chunk_;           ///< channels with messages in the chunk
   LittleEndian chunk_;
   Span chunk_span_, span_;
   // Records for the summary.

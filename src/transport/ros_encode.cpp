@@ -102,6 +102,15 @@ void writeFields(const State& state, const char* widths, LittleEndian& bytes) {
   State::fields(write);
 }
 
+void writeAlerts(const std::vector<const state::Alert*>& alerts, std::int64_t stamp,
+                 LittleEndian& bytes) {
+  putHeader(stamp, "", bytes);
+  bytes.number(alerts.size(), 4);
+  for (const state::Alert* alert : alerts) {
+    writeFields(*alert, definitionOf("whirl_twin/Alert").widths, bytes);
+  }
+}
+
 /// Most severe first, then the oldest.
 bool isMoreUrgent(const state::Alert* a, const state::Alert* b) {
   if (a->severity != b->severity) {
@@ -112,22 +121,23 @@ bool isMoreUrgent(const state::Alert* a, const state::Alert* b) {
 
 }  // namespace
 
-template <class State>
-void RosEncoder::go(const State& state) {
-  const std::string topic = topicOf(state);
+const RosDefinition& rosDefinitionOf(const MessageKind& kind) {
+  return definitionOf(std::string("whirl_twin/") + kind.type);
+}
+
+void RosEncoder::go(const MessageKind& kind, const std::string& topic) {
   const auto [place, is_new] = topics_.try_emplace(topic);
   if (is_new) {
-    const RosDefinition& of = definitionOf(std::string("whirl_twin/") + State::kKind.type);
+    const RosDefinition& of = rosDefinitionOf(kind);
     place->second = {namespace_ + "/" + topic, of.type, of.text, of.md5sum};
-    place->second.latching = State::kKind.has(MessageKind::kLatched);
+    place->second.latching = kind.has(MessageKind::kLatched);
   }
   topic_ = &place->second;
 }
 
 template <class State>
 void RosEncoder::put(const State& state) {
-  static const char* const widths =
-      definitionOf(std::string("whirl_twin/") + State::kKind.type).widths;
+  static const char* const widths = rosDefinitionOf(State::kKind).widths;
   writeFields(state, widths, bytes_);
 }
 
@@ -146,18 +156,26 @@ void RosEncoder::put(const state::Alert& alert) {
     list.push_back(&entry.second);
   }
   std::sort(list.begin(), list.end(), isMoreUrgent);
-  putHeader(alert.stamp, "", bytes_);
-  bytes_.number(list.size(), 4);
-  for (const state::Alert* one : list) {
-    writeFields(*one, definitionOf("whirl_twin/Alert").widths, bytes_);
+  writeAlerts(list, alert.stamp, bytes_);
+}
+
+const LittleEndian& RosEncoder::encode(const std::vector<state::Alert>& alerts,
+                                       std::int64_t stamp) {
+  bytes_.clear();
+  go(state::Alert::kKind, topicName(state::Alert::kKind));
+  std::vector<const state::Alert*> list;
+  for (const state::Alert& alert : alerts) {
+    list.push_back(&alert);
   }
+  writeAlerts(list, stamp, bytes_);
+  return bytes_;
 }
 
 const LittleEndian& RosEncoder::encode(const Message& message) {
   bytes_.clear();
   std::visit(
       [this](const auto& state) {
-        go(state);
+        go(std::decay_t<decltype(state)>::kKind, topicOf(state));
         put(state);
       },
       message);

@@ -4,12 +4,18 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "messages/message.h"
 #include "transport/little_endian.h"
 #include "transport/recording_writer.h"
 
 namespace whirl_twin {
+
+struct RosDefinition;
+
+/// Of the ROS message of a kind.
+const RosDefinition& rosDefinitionOf(const MessageKind& kind);
 
 class RosEncoder {
  public:
@@ -19,6 +25,8 @@ class RosEncoder {
   /// The same bytes as ROS's serialization of toRos(message). An alert becomes the complete list of
   /// active alerts, as on ROS. Valid until the next call.
   const LittleEndian& encode(const Message& message);
+  /// The list of active alerts, in this order; stamp: [ns], of the instant that it holds at.
+  const LittleEndian& encode(const std::vector<state::Alert>& alerts, std::int64_t stamp);
   /// The topic of the latest encoded message.
   const RecordedTopic& topic() const { return *topic_; }
 
@@ -26,8 +34,7 @@ class RosEncoder {
   template <class State>
   void put(const State& state);
   void put(const state::Alert& alert);
-  template <class State>
-  void go(const State& state);
+  void go(const MessageKind& kind, const std::string& topic);
 
   std::string namespace_;
   std::map<std::string, RecordedTopic> topics_;

@@ -73,6 +73,7 @@ RosLayout::RosLayout(const std::string& definition) {
       begins = true;
     } else if (begins && line.substr(0, 4) == "MSG:") {
       name = trimmed(line.substr(4));
+      types[name];  // it may have no fields
       begins = false;
     } else {
       types[name].append(line).push_back('\n');
@@ -81,23 +82,23 @@ RosLayout::RosLayout(const std::string& definition) {
   fields_ = fieldsOf(types[""], "", "", types, 0);
 }
 
-std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const std::string& package,
-                                                  const std::string& prefix, const Types& types,
-                                                  int depth) {
-  static const std::map<std::string_view, std::pair<Kind, std::size_t>> kNumbers = {
-      {"bool", {Kind::kUnsigned, 1}},     {"byte", {Kind::kSigned, 1}},
-      {"char", {Kind::kUnsigned, 1}},     {"int8", {Kind::kSigned, 1}},
-      {"uint8", {Kind::kUnsigned, 1}},    {"int16", {Kind::kSigned, 2}},
-      {"uint16", {Kind::kUnsigned, 2}},   {"int32", {Kind::kSigned, 4}},
-      {"uint32", {Kind::kUnsigned, 4}},   {"int64", {Kind::kSigned, 8}},
-      {"uint64", {Kind::kUnsigned, 8}},   {"float32", {Kind::kReal, 4}},
-      {"float64", {Kind::kReal, 8}},      {"time", {Kind::kTime, 8}},
-      {"duration", {Kind::kDuration, 8}}, {"string", {Kind::kText, 4}}};
+std::vector<RosField> RosLayout::fieldsOf(std::string_view text, const std::string& package,
+                                          const std::string& prefix, const Types& types,
+                                          int depth) {
+  static const std::map<std::string_view, std::pair<RosField::Kind, std::size_t>> kNumbers = {
+      {"bool", {RosField::Kind::kUnsigned, 1}},     {"byte", {RosField::Kind::kSigned, 1}},
+      {"char", {RosField::Kind::kUnsigned, 1}},     {"int8", {RosField::Kind::kSigned, 1}},
+      {"uint8", {RosField::Kind::kUnsigned, 1}},    {"int16", {RosField::Kind::kSigned, 2}},
+      {"uint16", {RosField::Kind::kUnsigned, 2}},   {"int32", {RosField::Kind::kSigned, 4}},
+      {"uint32", {RosField::Kind::kUnsigned, 4}},   {"int64", {RosField::Kind::kSigned, 8}},
+      {"uint64", {RosField::Kind::kUnsigned, 8}},   {"float32", {RosField::Kind::kReal, 4}},
+      {"float64", {RosField::Kind::kReal, 8}},      {"time", {RosField::Kind::kTime, 8}},
+      {"duration", {RosField::Kind::kDuration, 8}}, {"string", {RosField::Kind::kText, 4}}};
   if (depth > kDeepestMessage) {
     throw RejectedMessage(
         fmt::format("definition: must be nested at most {} messages deep", kDeepestMessage));
   }
-  std::vector<Field> fields;
+  std::vector<RosField> fields;
   eachLine(text, [&](std::string_view line) {
     const std::size_t type_end = line.find_first_of(" \t");
     if (line.empty() || line.front() == '#') {
@@ -110,7 +111,7 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
       return;  // a constant
     }
     std::string_view type = line.substr(0, type_end);
-    Field field;
+    RosField field;
     const std::size_t bracket = type.find('[');
     if (bracket != std::string_view::npos) {
       field.is_array = true;
@@ -136,7 +137,7 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
       std::tie(field.kind, field.width) = number->second;
       field.least = field.width;
     } else {
-      field.kind = Kind::kMessage;
+      field.kind = RosField::Kind::kMessage;
       std::string full(type == "Header" ? "std_msgs/Header" : type);
       if (full.find('/') == std::string::npos) {
         full = package + full;
@@ -153,6 +154,9 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
       const std::string of = found->first.substr(0, found->first.find('/') + 1);
       field.fields = fieldsOf(found->second, of, field.name + ".", types, depth + 1);
       field.least = leastOf(field.fields);
+      if (found->first == "std_msgs/Header" && !field.fields.empty()) {
+        field.fields.front().only_ros1 = true;
+      }
     }
     if (field.is_array && field.least == 0) {
       throw RejectedMessage("definition: an array without a type: " + printable(std::string(line)));
@@ -163,9 +167,9 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
 }
 
 /// [bytes], the smallest size of a message with these fields, limited to kMaxArray.
-std::size_t RosLayout::leastOf(const std::vector<Field>& fields) {
+std::size_t RosLayout::leastOf(const std::vector<RosField>& fields) {
   std::size_t least = 0;
-  for (const Field& field : fields) {
+  for (const RosField& field : fields) {
     const std::size_t of = !field.is_array   ? field.least
                            : field.count > 0 ? field.count * std::min(field.least, kMaxArray)
                                              : sizeof(std::uint32_t);
@@ -180,10 +184,10 @@ std::vector<RosLayout::Name> RosLayout::names() const {
   return names;
 }
 
-void RosLayout::addNames(const std::vector<Field>& fields, bool in_array,
+void RosLayout::addNames(const std::vector<RosField>& fields, bool in_array,
                          std::vector<Name>& names) {
-  for (const Field& field : fields) {
-    if (field.kind == Kind::kMessage) {
+  for (const RosField& field : fields) {
+    if (field.kind == RosField::Kind::kMessage) {
       addNames(field.fields, in_array || field.is_array, names);
     } else {
       names.push_back({field.name, in_array || field.is_array});
@@ -193,10 +197,11 @@ void RosLayout::addNames(const std::vector<Field>& fields, bool in_array,
 
 class RosLayout::Reader {
  public:
-  Reader(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
+  Reader(const std::uint8_t* data, std::size_t size, RosVisitor& visitor)
+      : data_(data), left_(size), visitor_(visitor) {}
 
-  void take(const std::vector<Field>& fields, RosValues& values) {
-    for (const Field& field : fields) {
+  void read(const std::vector<RosField>& fields) {
+    for (const RosField& field : fields) {
       std::size_t count = 1;
       if (field.is_array) {
         count = field.count > 0 ? field.count : littleEndianOf(bytes(4, field), 4);
@@ -204,12 +209,12 @@ class RosLayout::Reader {
           throw tooShort(field);
         }
       }
-      RosValue& value = values[field.name];
+      visitor_.begin(field, count);
       for (std::size_t i = 0; i < count; ++i) {
-        if (field.kind == Kind::kMessage) {
-          take(field.fields, values);
+        if (field.kind == RosField::Kind::kMessage) {
+          read(field.fields);
         } else {
-          takeOne(field, value);
+          readOne(field);
         }
       }
     }
@@ -217,35 +222,15 @@ class RosLayout::Reader {
   std::size_t left() const { return left_; }
 
  private:
-  void takeOne(const Field& field, RosValue& value) {
+  void readOne(const RosField& field) {
     const std::uint64_t bits = littleEndianOf(bytes(field.width, field), field.width);
-    switch (field.kind) {
-      case Kind::kSigned:
-        value.whole.push_back(signedOf(bits, field.width));
-        break;
-      case Kind::kUnsigned:
-        value.whole.push_back(static_cast<std::int64_t>(bits));
-        break;
-      case Kind::kReal:
-        value.real.push_back(realOf(bits, field.width));
-        break;
-      case Kind::kTime:
-      case Kind::kDuration: {
-        constexpr std::int64_t kSecond = 1'000'000'000;  // ns
-        const bool is_time = field.kind == Kind::kTime;
-        const auto low = static_cast<std::int64_t>(bits & 0xffffffff);
-        const auto high = static_cast<std::int64_t>(bits >> 32);
-        value.whole.push_back((is_time ? low : signedOf(bits & 0xffffffff, 4)) * kSecond +
-                              (is_time ? high : signedOf(bits >> 32, 4)));
-        break;
-      }
-      default: {
-        const auto* const text = reinterpret_cast<const char*>(bytes(bits, field));
-        value.text.emplace_back(text, bits);
-      }
+    if (field.kind == RosField::Kind::kText) {
+      visitor_.text(field, {reinterpret_cast<const char*>(bytes(bits, field)), bits});
+    } else {
+      visitor_.number(field, bits);
     }
   }
-  const std::uint8_t* bytes(std::size_t count, const Field& field) {
+  const std::uint8_t* bytes(std::size_t count, const RosField& field) {
     if (count > left_) {
       throw tooShort(field);
     }
@@ -254,21 +239,65 @@ class RosLayout::Reader {
     left_ -= count;
     return here;
   }
-  static RejectedMessage tooShort(const Field& field) {
+  static RejectedMessage tooShort(const RosField& field) {
     return RejectedMessage(field.name + ": missing, the message is too short");
   }
 
   const std::uint8_t* data_;
   std::size_t left_;
+  RosVisitor& visitor_;
 };
 
-RosValues RosLayout::read(const std::uint8_t* data, std::size_t size) const {
-  RosValues values;
-  Reader reader(data, size);
-  reader.take(fields_, values);
+void RosLayout::visit(const std::uint8_t* data, std::size_t size, RosVisitor& visitor) const {
+  Reader reader(data, size, visitor);
+  reader.read(fields_);
   if (reader.left() > 0) {
     throw RejectedMessage(fmt::format("payload: {} bytes too many", reader.left()));
   }
+}
+
+namespace {
+
+class ValueVisitor final : public RosVisitor {
+ public:
+  explicit ValueVisitor(RosValues& values) : values_(values) {}
+
+  void begin(const RosField& field, std::size_t) override { value_ = &values_[field.name]; }
+  void number(const RosField& field, std::uint64_t bits) override {
+    switch (field.kind) {
+      case RosField::Kind::kSigned:
+        value_->whole.push_back(signedOf(bits, field.width));
+        break;
+      case RosField::Kind::kReal:
+        value_->real.push_back(realOf(bits, field.width));
+        break;
+      case RosField::Kind::kTime:
+      case RosField::Kind::kDuration: {
+        constexpr std::int64_t kSecond = 1'000'000'000;  // ns
+        const bool is_time = field.kind == RosField::Kind::kTime;
+        const auto low = static_cast<std::int64_t>(bits & 0xffffffff);
+        const auto high = static_cast<std::int64_t>(bits >> 32);
+        value_->whole.push_back((is_time ? low : signedOf(bits & 0xffffffff, 4)) * kSecond +
+                                (is_time ? high : signedOf(bits >> 32, 4)));
+        break;
+      }
+      default:
+        value_->whole.push_back(static_cast<std::int64_t>(bits));
+    }
+  }
+  void text(const RosField&, std::string_view text) override { value_->text.emplace_back(text); }
+
+ private:
+  RosValues& values_;
+  RosValue* value_ = nullptr;
+};
+
+}  // namespace
+
+RosValues RosLayout::read(const std::uint8_t* data, std::size_t size) const {
+  RosValues values;
+  ValueVisitor visitor(values);
+  visit(data, size, visitor);
   return values;
 }
 

@@ -21,6 +21,30 @@ struct RosValue {
 /// By name; nested fields as "header.stamp", those of an array of messages concatenated.
 using RosValues = std::map<std::string, RosValue, std::less<>>;
 
+/// A field of a definition.
+struct RosField {
+  enum class Kind { kSigned, kUnsigned, kReal, kText, kTime, kDuration, kMessage };
+  std::string name;  ///< with the names of the enclosing fields
+  Kind kind = Kind::kSigned;
+  std::size_t width = 0;  ///< [bytes], of a number
+  bool is_array = false;
+  std::size_t count = 0;           ///< of an array; 0: preceded by its length
+  std::vector<RosField> fields{};  ///< of a kMessage
+  std::size_t least = 0;           ///< [bytes], smallest size of an entry
+  bool only_ros1 = false;          ///< `seq` of a header, which ROS 2 does not have
+};
+
+/// Receives the fields of a message in order.
+class RosVisitor {
+ public:
+  virtual ~RosVisitor() = default;
+  /// The entries of a field follow, as many as `count`: one unless it is an array.
+  virtual void begin(const RosField& field, std::size_t count) = 0;
+  /// An entry that is not a text: the bytes as a little-endian number.
+  virtual void number(const RosField& field, std::uint64_t bits) = 0;
+  virtual void text(const RosField& field, std::string_view text) = 0;
+};
+
 class RosLayout {
  public:
   /// From the definition of a message: its .msg file, and after lines of '=' and `MSG:
@@ -35,29 +59,21 @@ class RosLayout {
   /// All fields in the order of the definition.
   std::vector<Name> names() const;
 
-  /// Throws RejectedMessage for bytes that do not match the definition exactly.
+  /// Both throw RejectedMessage for bytes that do not match the definition exactly.
+  void visit(const std::uint8_t* data, std::size_t size, RosVisitor& visitor) const;
   RosValues read(const std::uint8_t* data, std::size_t size) const;
 
  private:
-  enum class Kind { kSigned, kUnsigned, kReal, kText, kTime, kDuration, kMessage };
-  struct Field {
-    std::string name;  ///< with the names of the enclosing fields
-    Kind kind = Kind::kSigned;
-    std::size_t width = 0;  ///< [bytes], of a number
-    bool is_array = false;
-    std::size_t count = 0;        ///< of an array; 0: preceded by its length
-    std::vector<Field> fields{};  ///< of a kMessage
-    std::size_t least = 0;        ///< [bytes], smallest size of an entry
-  };
   using Types = std::map<std::string, std::string, std::less<>>;  ///< text by name
   class Reader;
 
-  static std::vector<Field> fieldsOf(std::string_view text, const std::string& package,
-                                     const std::string& prefix, const Types& types, int depth);
-  static std::size_t leastOf(const std::vector<Field>& fields);
-  static void addNames(const std::vector<Field>& fields, bool in_array, std::vector<Name>& names);
+  static std::vector<RosField> fieldsOf(std::string_view text, const std::string& package,
+                                        const std::string& prefix, const Types& types, int depth);
+  static std::size_t leastOf(const std::vector<RosField>& fields);
+  static void addNames(const std::vector<RosField>& fields, bool in_array,
+                       std::vector<Name>& names);
 
-  std::vector<Field> fields_;
+  std::vector<RosField> fields_;
 };
 
 }  // namespace whirl_twin

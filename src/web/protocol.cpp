@@ -11,11 +11,11 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::size_t kMaxSubscriptions = 1000;  // of a client
-constexpr int kMaxDepth = 16;                    // of nested JSON
+constexpr std::size_t kMaxPublished = 100;       // topics of a client
 
 // Opcodes of binary messages.
 constexpr char kMessageData = 1, kTime = 2, kServiceResponse = 3;  // to the client
-constexpr char kServiceRequest = 2;                                // from it
+constexpr char kPublished = 1, kServiceRequest = 2;                // from it
 
 /// Little-endian, as the protocol has all numbers.
 template <class Number>
@@ -25,88 +25,8 @@ void append(std::string& out, Number number) {
   }
 }
 
-std::uint32_t numberAt(std::string_view message, std::size_t at) {
-  std::uint32_t number = 0;
-  for (std::size_t i = 0; i < sizeof number; ++i) {
-    number |= static_cast<std::uint32_t>(static_cast<unsigned char>(message[at + i])) << (8 * i);
-  }
-  return number;
-}
-
 WebMessage answerOf(std::string text, bool binary) {
   return {std::move(text), nullptr, binary, true};
-}
-
-/// A client's text, which must be JSON; nothing: it is not, or nested too deeply.
-std::optional<Json> parsed(std::string_view text) {
-  bool deep = false;
-  const auto limit = [&deep](int depth, Json::parse_event_t, Json&) {
-    deep = deep || depth > kMaxDepth;
-    return !deep;
-  };
-  Json json = Json::parse(text.begin(), text.end(), limit, false);
-  return json.is_discarded() || deep ? std::nullopt : std::optional<Json>(std::move(json));
-}
-
-std::string textIn(const Json& message, const char* key) {
-  const auto found = message.find(key);
-  return found != message.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
-/// A member that must be a list; an empty one where it is none.
-const Json& listIn(const Json& message, const char* key) {
-  static const Json kEmpty = Json::array();
-  const auto found = message.find(key);
-  return found != message.end() && found->is_array() ? *found : kEmpty;
-}
-
-std::optional<std::uint32_t> numberIn(const Json& json) {
-  return json.is_number_unsigned() && json.get<std::uint64_t>() <= UINT32_MAX
-             ? std::optional<std::uint32_t>(json.get<std::uint32_t>())
-             : std::nullopt;
-}
-std::optional<std::uint32_t> numberIn(const Json& message, const char* key) {
-  const auto found = message.find(key);
-  return found != message.end() ? numberIn(*found) : std::nullopt;
-}
-
-std::vector<std::string> namesIn(const Json& message, const char* key) {
-  std::vector<std::string> names;
-  for (const Json& name : listIn(message, key)) {
-    if (name.is_string()) {
-      names.push_back(name.get<std::string>());
-    }
-  }
-  return names;
-}
-
-Json schemaOf(const std::vector<std::pair<std::string, std::string>>& fields) {
-  Json schema = {{"type", "object"}, {"properties", Json::object()}, {"required", Json::array()}};
-  for (const auto& [name, type] : fields) {
-    schema["properties"][name] = {{"type", type}};
-    schema["required"].push_back(name);
-  }
-  return schema;
-}
-
-/// Why a request does not have the fields of its service, or "".
-std::string requestFault(const ServiceInfo& service, const Json& request) {
-  if (!request.is_object()) {
-    return service.name + ": the request must be a JSON object";
-  }
-  for (const auto& [name, type] : service.fields) {
-    const auto found = request.find(name);
-    const bool fits = found != request.end() && (type == "string"    ? found->is_string()
-                                                 : type == "integer" ? found->is_number_unsigned()
-                                                                     : found->is_number());
-    if (!fits) {
-      return fmt::format(
-          "{}: {}: must be {}, found {}", service.name, name,
-          type == "integer" ? "a whole number >= 0" : "a " + type,
-          found == request.end() ? "nothing" : printable(found->dump(-1, ' ', true)));
-    }
-  }
-  return "";
 }
 
 }  // namespace
@@ -119,13 +39,17 @@ Protocol::Protocol(WebServer& server, WebRequests& requests, std::string name, b
       read_only_(read_only),
       services_(std::move(services)) {}
 
-ChannelId Protocol::addChannel(const std::string& topic, const std::string& schema_name,
-                               const std::string& schema, bool latched) {
-  Channel& channel = channels_.emplace_back();
-  channel.topic = topic;
-  channel.schema_name = schema_name;
-  channel.schema = schema;
-  channel.latched = latched;
+Json ChannelInfo::advertisement(ChannelId id) const {
+  return {{"id", id},
+          {"topic", topic},
+          {"encoding", encoding},
+          {"schemaName", schema_name},
+          {"schema", schema},
+          {"schemaEncoding", schema_encoding}};
+}
+
+ChannelId Protocol::addChannel(ChannelInfo info) {
+  channels_.emplace_back().info = std::move(info);
   return static_cast<ChannelId>(channels_.size() - 1);
 }
 
@@ -134,6 +58,7 @@ void Protocol::opened(ClientId id) {
   Json capabilities = {"time", "parameters", "parametersSubscribe"};
   if (!read_only_) {
     capabilities.push_back("services");
+    capabilities.push_back("clientPublish");
   }
   sendJson(id, {{"op", "serverInfo"},
                 {"name", name_},
@@ -143,33 +68,13 @@ void Protocol::opened(ClientId id) {
                 {"sessionId", fmt::format("{}-{}", name_, id)}});
   Json channels = Json::array();
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    channels.push_back({{"id", i},
-                        {"topic", channels_[i].topic},
-                        {"encoding", "json"},
-                        {"schemaName", channels_[i].schema_name},
-                        {"schema", channels_[i].schema},
-                        {"schemaEncoding", "jsonschema"}});
+    channels.push_back(channels_[i].info.advertisement(static_cast<ChannelId>(i)));
   }
   sendJson(id, {{"op", "advertise"}, {"channels", channels}});
   if (read_only_) {
     return;
   }
-  Json services = Json::array();
-  for (std::size_t i = 0; i < services_.size(); ++i) {
-    const Json answer = schemaOf({{"success", "boolean"}, {"message", "string"}});
-    const auto part = [&](const char* suffix, const Json& schema) {
-      return Json{{"encoding", "json"},
-                  {"schemaName", services_[i].name + suffix},
-                  {"schemaEncoding", "jsonschema"},
-                  {"schema", schema.dump()}};
-    };
-    services.push_back({{"id", i},
-                        {"name", services_[i].name},
-                        {"type", services_[i].name},
-                        {"request", part("_request", schemaOf(services_[i].fields))},
-                        {"response", part("_response", answer)}});
-  }
-  sendJson(id, {{"op", "advertiseServices"}, {"services", services}});
+  sendJson(id, {{"op", "advertiseServices"}, {"services", advertisementOf(services_)}});
 }
 
 void Protocol::closed(ClientId id) {
@@ -192,9 +97,12 @@ void Protocol::received(ClientId id, std::string_view message, bool binary) {
     if (!message.empty() && message[0] == kServiceRequest) {
       return callService(id, message);
     }
-    return complain(id, "a binary message must be a call of a service (2)");
+    if (!message.empty() && message[0] == kPublished) {
+      return takePublished(id, client->second, message);
+    }
+    return complain(id, "a binary message must be a published one (1) or a call of a service (2)");
   }
-  const std::optional<Json> json = parsed(message);
+  const std::optional<Json> json = parsedMessage(message);
   if (!json || !json->is_object() || textIn(*json, "op").empty()) {
     return complain(id, "a message must be a JSON object with an `op`");
   }
@@ -211,6 +119,12 @@ void Protocol::take(ClientId id, Client& client, const Json& message) {
     sendValues(id, namesIn(message, "parameterNames"), textIn(message, "id"));
   } else if (op == "setParameters") {
     requestParameters(id, message);
+  } else if (op == "advertise" && !read_only_) {
+    advertise(id, client, message);
+  } else if (op == "unadvertise" && !read_only_) {
+    for (const Json& channel : listIn(message, "channelIds")) {
+      client.published.erase(numberIn(channel).value_or(0));
+    }
   } else if (op == "subscribeParameterUpdates" || op == "unsubscribeParameterUpdates") {
     watch(client, message, op[0] == 's');
   } else {
@@ -261,6 +175,42 @@ void Protocol::drop(Client& client, std::uint32_t subscription) {
   channels_[channel].subscribers.fetch_sub(1, std::memory_order_relaxed);
 }
 
+/// Topics that the client will publish: the inputs of systems.
+void Protocol::advertise(ClientId id, Client& client, const Json& message) {
+  for (const Json& one : listIn(message, "channels")) {
+    const auto channel = one.is_object() ? numberIn(one, "id") : std::nullopt;
+    const std::string topic = one.is_object() ? textIn(one, "topic") : "";
+    if (!channel || textIn(one, "encoding") != "json" || inputsOf(topic).empty() ||
+        client.published.size() >= kMaxPublished) {
+      complain(id,
+               fmt::format("advertise: must be {{id, topic, encoding}} of a topic SYSTEM/inputs "
+                           "in JSON, at most {} of them, found {}",
+                           kMaxPublished, inQuotes(topic)));
+      continue;
+    }
+    client.published[*channel] = topic;
+  }
+}
+
+void Protocol::takePublished(ClientId id, const Client& client, std::string_view message) {
+  constexpr std::size_t kHead = 5;
+  const auto topic =
+      message.size() < kHead ? client.published.end() : client.published.find(numberAt(message, 1));
+  if (topic == client.published.end()) {
+    return complain(id, "a published message must be of an advertised channel");
+  }
+  const std::optional<Json> json = parsedMessage(message.substr(kHead));
+  state::InputCommand inputs;
+  std::string why = readInputs(json.value_or(Json()), inputs);
+  inputs.system = inputsOf(topic->second);
+  if (why.empty() && !requests_.setInputs(id, std::move(inputs))) {
+    why = "too many requests wait: try again";
+  }
+  if (!why.empty()) {
+    complain(id, topic->second + ": " + why);
+  }
+}
+
 void Protocol::watch(Client& client, const Json& message, bool on) {
   const std::vector<std::string> names = namesIn(message, "parameterNames");
   if (names.empty()) {
@@ -277,12 +227,12 @@ void Protocol::watch(Client& client, const Json& message, bool on) {
 
 void Protocol::requestParameters(ClientId id, const Json& message) {
   std::vector<ParameterValue> values;
-  std::vector<std::string> names;
   std::string why = read_only_ ? "the server is read-only: no parameter can be set" : "";
   for (const Json& one : listIn(message, "parameters")) {
     const std::string name = one.is_object() ? textIn(one, "name") : "";
     const auto value = one.is_object() ? one.find("value") : one.end();
-    names.push_back(name);
+    values.emplace_back(name,
+                        value != one.end() && value->is_number() ? value->get<double>() : 0.0);
     if (why.empty() && parameters_.count(name) == 0) {
       std::vector<std::string> known;
       for (const auto& [other, unused] : parameters_) {
@@ -294,8 +244,6 @@ void Protocol::requestParameters(ClientId id, const Json& message) {
     } else if (why.empty() && (value == one.end() || !value->is_number())) {
       why = fmt::format("{}: must be a number, found {}", name,
                         value == one.end() ? "nothing" : printable(value->dump(-1, ' ', true)));
-    } else if (why.empty()) {
-      values.emplace_back(name, value->get<double>());
     }
   }
   const std::string request = textIn(message, "id");
@@ -303,7 +251,7 @@ void Protocol::requestParameters(ClientId id, const Json& message) {
     why = "too many requests wait: try again";
   }
   if (!why.empty()) {
-    answerParameters(id, {}, names, request, why);
+    answerParameters(id, values, request, why);
   }
 }
 
@@ -323,7 +271,7 @@ void Protocol::callService(ClientId id, std::string_view message) {
       message.substr(kHead, length) != "json") {
     return fail("a call must be of an advertised service, in the encoding json");
   }
-  std::optional<Json> request = parsed(message.substr(kHead + length));
+  std::optional<Json> request = parsedMessage(message.substr(kHead + length));
   const std::string why = requestFault(services_[service], request.value_or(Json()));
   if (!why.empty()) {
     return fail(why);
@@ -336,7 +284,7 @@ void Protocol::callService(ClientId id, std::string_view message) {
 void Protocol::publish(const std::vector<ChannelMessage>& messages) {
   for (const ChannelMessage& message : messages) {
     Channel& channel = channels_[message.channel];
-    if (channel.latched) {
+    if (channel.info.latched) {
       channel.newest = message;
     }
   }
@@ -355,8 +303,9 @@ void Protocol::deliver(ClientId id, std::uint32_t subscription, const ChannelMes
   out.head += kMessageData;
   append(out.head, subscription);
   append(out.head, static_cast<std::uint64_t>(message.stamp));
-  out.body = message.json;
+  out.body = message.content;
   out.binary = true;
+  out.kept = latched(message.channel);
   server_.send(id, std::move(out));
 }
 
@@ -387,11 +336,14 @@ void Protocol::updateParameters(const std::vector<ParameterValue>& values) {
   }
 }
 
-void Protocol::answerParameters(ClientId client, const std::vector<ParameterValue>& set,
-                                const std::vector<std::string>& names, const std::string& id,
-                                const std::string& why) {
-  for (const auto& [name, value] : set) {
-    parameters_[name] = value;
+void Protocol::answerParameters(ClientId client, const std::vector<ParameterValue>& requested,
+                                const std::string& id, const std::string& why) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : requested) {
+    names.push_back(name);
+    if (why.empty()) {
+      parameters_[name] = value;
+    }
   }
   if (!why.empty()) {
     complain(client, why);

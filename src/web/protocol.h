@@ -1,6 +1,6 @@
 // Foxglove's WebSocket protocol (subprotocols foxglove.websocket.v1 and foxglove.sdk.v1, the same
-// under two names): channels, subscriptions, parameters and services. Messages of channels are
-// JSON. All of it belongs to the server's thread, except where noted.
+// under two names): channels, subscriptions, parameters, services, and inputs that clients publish.
+// All of it belongs to the server's thread, except where noted.
 //
 // https://github.com/foxglove/ws-protocol
 #pragma once
@@ -16,40 +16,46 @@
 #include <utility>
 #include <vector>
 
+#include "messages/commands.h"
 #include "reports/output.h"
+#include "web/client_message.h"
 #include "web/web_server.h"
 
 namespace whirl_twin {
 
 using ChannelId = std::uint32_t;
 
+struct ChannelInfo {
+  std::string topic;
+  std::string encoding;  ///< of its messages: "json" or "ros1"
+  std::string schema_name, schema_encoding, schema;
+  bool latched = false;  ///< who subscribes gets the newest message, and loses none
+
+  Json advertisement(ChannelId id) const;
+};
+
 /// A message on a channel.
 struct ChannelMessage {
   ChannelId channel = 0;
   std::int64_t stamp = 0;  ///< [ns]
-  std::shared_ptr<const std::string> json;
+  std::shared_ptr<const std::string> content;
 };
 
 /// A parameter that clients may set: "SYSTEM/PATH".
 using ParameterValue = std::pair<std::string, double>;
 
-struct ServiceInfo {
-  std::string name;
-  std::string meaning;
-  /// Fields of a request with their JSON types: {"drive", "string"}. All are required.
-  std::vector<std::pair<std::string, std::string>> fields;
-};
-
 /// What clients request; called by the server's thread, must not wait. The answer comes by
-/// answerParameters() or answerService(), which are posted to that thread.
+/// answerParameters() or answerService(), which are posted to that thread. Each returns whether the
+/// request was accepted; false: too many wait.
 class WebRequests {
  public:
   virtual ~WebRequests() = default;
-  /// False: too many requests wait.
   virtual bool setParameters(ClientId client, std::vector<ParameterValue> values,
                              std::string id) = 0;
   virtual bool callService(ClientId client, std::size_t service, std::uint32_t call,
                            Json request) = 0;
+  /// Inputs of a system, published by a client; complain() where they are invalid.
+  virtual bool setInputs(ClientId client, state::InputCommand inputs) = 0;
 };
 
 class Protocol : public WebClients {
@@ -60,18 +66,15 @@ class Protocol : public WebClients {
 
   // Before the server starts.
 
-  /// schema: JSON Schema. latched: who subscribes gets the newest message.
-  ChannelId addChannel(const std::string& topic, const std::string& schema_name,
-                       const std::string& schema, bool latched);
+  ChannelId addChannel(ChannelInfo info);
   void setParameter(const ParameterValue& value) { parameters_[value.first] = value.second; }
 
   // Any thread.
 
-  bool latched(ChannelId channel) const { return channels_[channel].latched; }
+  bool latched(ChannelId channel) const { return channels_[channel].info.latched; }
   /// Has the channel a subscriber, or is it latched?
   bool wanted(ChannelId channel) const {
-    return channels_[channel].latched ||
-           channels_[channel].subscribers.load(std::memory_order_relaxed) > 0;
+    return latched(channel) || channels_[channel].subscribers.load(std::memory_order_relaxed) > 0;
   }
 
   // The server's thread.
@@ -81,13 +84,14 @@ class Protocol : public WebClients {
   void publishTime(std::int64_t stamp);
   /// The twin reports values, as after a change by another client.
   void updateParameters(const std::vector<ParameterValue>& values);
-  /// why: "" where all are set. Then the client receives the values as they are.
-  void answerParameters(ClientId client, const std::vector<ParameterValue>& set,
-                        const std::vector<std::string>& names, const std::string& id,
-                        const std::string& why);
+  /// why: "" where all are set. The client receives the values that there are then.
+  void answerParameters(ClientId client, const std::vector<ParameterValue>& requested,
+                        const std::string& id, const std::string& why);
   /// why: "" with an answer, else the reason of a failure.
   void answerService(ClientId client, std::size_t service, std::uint32_t call, const Json& answer,
                      const std::string& why);
+  /// An error, as the status of the client.
+  void complain(ClientId id, const std::string& why);
 
   void opened(ClientId client) override;
   void received(ClientId client, std::string_view message, bool binary) override;
@@ -95,14 +99,14 @@ class Protocol : public WebClients {
 
  private:
   struct Channel {
-    std::string topic, schema_name, schema;
-    bool latched = false;
+    ChannelInfo info;
     std::optional<ChannelMessage> newest;
     std::atomic<int> subscribers{0};
   };
   struct Client {
     std::map<std::uint32_t, ChannelId> subscriptions;    ///< by the client's number
     std::multimap<ChannelId, std::uint32_t> by_channel;  ///< the same
+    std::map<std::uint32_t, std::string> published;      ///< topics, by the client's number
     std::set<std::string> watched;                       ///< parameters
     bool watches_all = false;
   };
@@ -111,12 +115,13 @@ class Protocol : public WebClients {
   void subscribe(ClientId id, Client& client, const Json& message);
   void unsubscribe(ClientId id, Client& client, const Json& message);
   void drop(Client& client, std::uint32_t subscription);
+  void advertise(ClientId id, Client& client, const Json& message);
+  void takePublished(ClientId id, const Client& client, std::string_view message);
   void watch(Client& client, const Json& message, bool on);
   void requestParameters(ClientId id, const Json& message);
   void callService(ClientId id, std::string_view message);
   void deliver(ClientId id, std::uint32_t subscription, const ChannelMessage& message);
   void sendJson(ClientId id, const Json& json);
-  void complain(ClientId id, const std::string& why);
   void sendValues(ClientId id, const std::vector<std::string>& names, const std::string& request);
   Json values(const std::vector<std::string>& names) const;
 

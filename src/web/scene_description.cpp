@@ -122,14 +122,15 @@ ParameterPlace parameterPlace(const std::string& name) {
                                   : ParameterPlace{name.substr(0, bar), name.substr(bar + 1)};
 }
 
-Json sceneDescription(const Twin& twin, bool read_only) {
-  const Scene& scene = twin.scene();
+Json sceneDescription(const BuiltScene& built, bool read_only) {
+  const Scene& scene = built.scene;
+  const std::vector<Drive> moved = built.drives();
   Json systems = Json::array(), drives = Json::array(), controllers = Json::array();
-  for (const SharedSystem& system : twin.systems()) {
+  for (const SharedSystem& system : built.systems) {
     systems.push_back(systemDescription(*system, scene));
   }
   for (std::size_t i = 0; i < scene.drives.size(); ++i) {
-    drives.push_back(driveDescription(scene.drives[i], twin.drive(i).speedRange()));
+    drives.push_back(driveDescription(scene.drives[i], moved[i].speedRange()));
   }
   for (const ControllerSpec& one : scene.controllers) {
     const ControllerInfo& info = *findController(one.type);
@@ -141,6 +142,35 @@ Json sceneDescription(const Twin& twin, bool read_only) {
   return {{"name", scene.name},     {"step", scene.stepSeconds()},
           {"read_only", read_only}, {"systems", systems},
           {"drives", drives},       {"controllers", controllers}};
+}
+
+void addTwinChannels(WebChannels& channels, const BuiltScene& scene, const StepMessages& messages) {
+  messages.announce([&](auto kind, const std::string& subject) {
+    channels.add<typename decltype(kind)::State>(subject);
+  });
+  for (const SharedSystem& system : scene.systems) {
+    channels.add<state::StabilityMargin>(system->spec.name, true);
+    channels.addForPage(pictureTopic(system->spec.name), false);
+  }
+  for (const ControllerSpec& controller : scene.scene.controllers) {
+    channels.add<state::ControllerMargins>(controller.name, true);
+  }
+  channels.add<state::LoopStatistics>("", true);
+  channels.add<state::MonitorStatus>("", true);
+  channels.addAlerts();
+  channels.addForPage(kSceneTopic, true);
+  channels.addForPage(kServerTopic, true);
+}
+
+void addParameters(Protocol& protocol, const Json& description) {
+  for (const char* group : {"systems", "controllers"}) {
+    for (const Json& one : description[group]) {
+      for (const Json& parameter : one["parameters"]) {
+        protocol.setParameter(
+            {parameter["name"].get<std::string>(), parameter["value"].get<double>()});
+      }
+    }
+  }
 }
 
 }  // namespace whirl_twin

@@ -1,12 +1,14 @@
-// What the page must know of a scene: its systems with their coordinates, parameters and inputs,
-// its drives and controllers, with units and ranges.
+// What a scene has for clients: a description for the page, of its systems with their coordinates,
+// parameters and inputs, its drives and controllers, with units and ranges; channels; parameters.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "reports/output.h"
-#include "twin/twin.h"
+#include "scene/built_scene.h"
+#include "twin/step_messages.h"
+#include "web/web_channels.h"
 
 namespace whirl_twin {
 
@@ -19,6 +21,11 @@ struct ParameterPlace {
 ParameterPlace parameterPlace(const std::string& name);
 
 /// With the values of the scene's start.
-Json sceneDescription(const Twin& twin, bool read_only);
+Json sceneDescription(const BuiltScene& scene, bool read_only);
+
+/// The channels of a scene's twin and its monitor, and those for the page.
+void addTwinChannels(WebChannels& channels, const BuiltScene& scene, const StepMessages& messages);
+/// The parameters of a description, with its values. Before the server starts.
+void addParameters(Protocol& protocol, const Json& description);
 
 }  // namespace whirl_twin

@@ -11,6 +11,7 @@
 #include "messages/commands.h"
 #include "messages/input_error.h"
 #include "monitoring/alarm_commands.h"
+#include "web/offered_services.h"
 #include "web/scene_description.h"
 
 namespace whirl_twin {
@@ -21,39 +22,6 @@ constexpr std::int64_t kMinStep = 10'000;          // ns, of the fixed-rate loop
 constexpr std::chrono::milliseconds kTaskPoll{2};  // of the queue
 constexpr std::size_t kMaxTasks = 64;              // that wait
 constexpr const char* kBrowser = "a client of the web server";
-
-using Fields = std::vector<std::pair<std::string, std::string>>;
-
-/// With the same fields as the services of the nodes.
-std::vector<ServiceInfo> servicesOfTwin() {
-  return {
-      {"pause", "stops simulated time", {}},
-      {"resume", "continues", {}},
-      {"reset", "to the scene's start and parameters", {}},
-      {"step", "a number of steps while paused", {{"steps", "integer"}}},
-      {"set_speed",
-       "moves a drive to a speed [rad/s]",
-       {{"drive", "string"},
-        {"speed", "number"},
-        {"max_acceleration", "number"},
-        {"max_jerk", "number"}}},
-      {"set_input",
-       "holds an input at a value for a duration [s, simulated]",
-       {{"system", "string"}, {"input", "string"}, {"value", "number"}, {"duration", "number"}}},
-      {"set_real_time_factor", "simulated seconds per second; 0: fastest", {{"factor", "number"}}},
-      {"acknowledge",
-       "alerts of a system and type; \"\": any",
-       {{"system", "string"}, {"type", "string"}}},
-      {"reset_alarms", "clears latched alerts", {}},
-      {"inhibit",
-       "alerts of a system for a duration [s]",
-       {{"system", "string"}, {"duration", "number"}}}};
-}
-
-const std::vector<ServiceInfo>& services() {
-  static const std::vector<ServiceInfo> kAll = servicesOfTwin();
-  return kAll;
-}
 
 /// Buffer for half a second of delay of the publisher, at least 64 records.
 std::size_t ringCapacityOf(const Scene& scene) {
@@ -90,7 +58,7 @@ ServedTwin::ServedTwin(const Scene& scene, const ServeSettings& settings,
       loop_(optionsOf(scene, settings.realtime)),
       commands_(live_, [this] { return go_on_() && loop_.running(); }),
       server_(settings.access, settings.limits, settings.files),
-      protocol_(server_, *this, "whirl_twin " + scene.name, settings.read_only, services()),
+      protocol_(server_, *this, "whirl_twin " + scene.name, settings.read_only, offeredServices()),
       publisher_(live_, loop_, server_, protocol_, settings.alarms,
                  stepsBetween(scene, settings.rate), settings.read_only) {
   if (std::string why = factorFault(settings.real_time_factor); !why.empty()) {
@@ -157,35 +125,22 @@ bool ServedTwin::setParameters(ClientId client, std::vector<ParameterValue> valu
   });
 }
 
-/// All values of a request, or none: hence they must be of one system.
 void ServedTwin::carryOut(ClientId client, const std::vector<ParameterValue>& values,
                           const std::string& id) {
   ParameterRequest request;
-  std::vector<std::string> names;
-  std::string why;
-  for (const auto& [name, value] : values) {
-    const ParameterPlace place = parameterPlace(name);
-    if (!names.empty() && place.subject != request.system) {
-      why = fmt::format("parameters: must be of one system or controller, found {} and {}",
-                        request.system, place.subject);
-    }
-    request.system = place.subject;
-    request.names.push_back(place.path);
-    request.values.push_back(value);
-    names.push_back(name);
-  }
-  if (why.empty() && !names.empty()) {
+  std::string why = readParameters(values, request);
+  if (why.empty() && !values.empty()) {
     const CommandResult result = commands_.setParameter(request);
     why = result.done ? "" : result.message;
   }
-  server_.post([this, client, set = why.empty() ? values : std::vector<ParameterValue>{}, names, id,
-                why] { protocol_.answerParameters(client, set, names, id, why); });
+  server_.post(
+      [this, client, values, id, why] { protocol_.answerParameters(client, values, id, why); });
 }
 
 bool ServedTwin::callService(ClientId client, std::size_t service, std::uint32_t call,
                              Json request) {
-  const std::string& name = services()[service].name;
-  if (name == "acknowledge" || name == "reset_alarms" || name == "inhibit") {
+  const std::string& name = offeredServices()[service].name;
+  if (isOfMonitor(name)) {
     return alarmCommand(client, service, call, request);
   }
   if (name == "pause") {
@@ -196,9 +151,17 @@ bool ServedTwin::callService(ClientId client, std::size_t service, std::uint32_t
   });
 }
 
+bool ServedTwin::setInputs(ClientId client, state::InputCommand inputs) {
+  return enqueue([this, client, inputs = std::move(inputs)] {
+    if (const std::string why = commands_.take(inputs, kBrowser); !why.empty()) {
+      server_.post([this, client, why] { protocol_.complain(client, why); });
+    }
+  });
+}
+
 void ServedTwin::carryOut(ClientId client, std::size_t service, std::uint32_t call,
                           const Json& request) {
-  const CommandResult result = commandOf(services()[service].name, request);
+  const CommandResult result = commandOf(offeredServices()[service].name, request);
   Json answer = answerJson(result.done, result.message);
   answer["step"] = result.step;
   server_.post([this, client, service, call, answer = std::move(answer)] {
@@ -234,12 +197,12 @@ CommandResult ServedTwin::commandOf(const std::string& service, const Json& requ
 
 bool ServedTwin::alarmCommand(ClientId client, std::size_t service, std::uint32_t call,
                               const Json& request) {
-  const std::string& name = services()[service].name;
+  const std::string& name = offeredServices()[service].name;
   state::AlarmCommand command;
   command.command = name == "acknowledge"    ? state::AlarmCommand::kAcknowledge
                     : name == "reset_alarms" ? state::AlarmCommand::kReset
                                              : state::AlarmCommand::kInhibit;
-  for (const auto& [field, type] : services()[service].fields) {  // their types are checked
+  for (const auto& [field, type] : offeredServices()[service].fields) {  // their types are checked
     if (field == "system") {
       command.system = request[field].get<std::string>();
     } else if (field == "type") {

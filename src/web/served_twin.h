@@ -50,6 +50,7 @@ class ServedTwin : private WebRequests {
 
   bool setParameters(ClientId client, std::vector<ParameterValue> values, std::string id) override;
   bool callService(ClientId client, std::size_t service, std::uint32_t call, Json request) override;
+  bool setInputs(ClientId client, state::InputCommand inputs) override;
   void carryOut(ClientId client, const std::vector<ParameterValue>& values, const std::string& id);
   void carryOut(ClientId client, std::size_t service, std::uint32_t call, const Json& request);
   CommandResult commandOf(const std::string& service, const Json& request);

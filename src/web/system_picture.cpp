@@ -16,10 +16,6 @@ constexpr double kDeflection = 0.07;  // of the picture's size, of a magnified m
 constexpr double kForgetting = 0.98;  // of the radius of late, from picture to picture
 constexpr double kTiny = 1.0e-15;     // of the picture's size: no motion
 
-Eigen::VectorXd coordinatesOf(const Observer& observer, std::size_t system, int dof) {
-  return Eigen::Map<const Eigen::VectorXd>(observer.coordinates(system), dof);
-}
-
 }  // namespace
 
 Sketch discRotorSketch(double x, double y, double angle) {
@@ -53,12 +49,11 @@ Sketch discRotorSketch(double x, double y, double angle) {
   return sketch;
 }
 
-SystemPicture::SystemPicture(std::size_t system, const BuiltSystem& built)
-    : system_(system), rotor_(built.dynamics->isRotor()) {
+SystemPicture::SystemPicture(const Dynamics& dynamics) : rotor_(dynamics.isRotor()) {
   if (rotor_) {
-    names_ = {"x", "y"};
+    names_ = {"x", "y", "x_rate", "y_rate"};
   } else {
-    for (const CoordinateInfo& one : built.dynamics->coordinates()) {
+    for (const CoordinateInfo& one : dynamics.coordinates()) {
       names_.push_back(one.name);
     }
   }
@@ -81,7 +76,7 @@ void SystemPicture::restart() {
   longest_ = 0.0;
 }
 
-void SystemPicture::sample(const Observer& observer, const Dynamics& dynamics) {
+void SystemPicture::sample(const PictureMotion& motion, const Dynamics& dynamics) {
   if (passed_++ % stride_ != 0) {
     return;
   }
@@ -100,19 +95,21 @@ void SystemPicture::sample(const Observer& observer, const Dynamics& dynamics) {
     }
     stride_ *= 2;
   }
-  times_.push_back(observer.instant().time);
-  speeds_.push_back(observer.moment(system_).speed);
+  times_.push_back(motion.at.time);
+  speeds_.push_back(motion.shaft.speed);
   if (rotor_) {
-    const WhirlMotion whirl = observer.whirlOf(system_);
+    const WhirlMotion& whirl = motion.whirl;
     values_[0].push_back(whirl.x);
     values_[1].push_back(whirl.y);
+    values_[2].push_back(whirl.x_rate);
+    values_[3].push_back(whirl.y_rate);
     longest_ = std::max(longest_, whirl.radius());
     return;
   }
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    values_[i].push_back(observer.coordinates(system_)[i]);
+    values_[i].push_back(motion.q[static_cast<Eigen::Index>(i)]);
   }
-  path_.push_back(sketch(observer, dynamics).tracer);
+  path_.push_back(sketch(motion, dynamics).tracer);
 }
 
 /// The magnification stays while the motion is well visible, so that the picture is calm.
@@ -127,15 +124,15 @@ void SystemPicture::magnify(double radius, double size) {
   }
 }
 
-Sketch SystemPicture::rotorSketch(const Observer& observer, const Dynamics& dynamics) {
-  const EvaluationPoint<double> at = observer.moment(system_);
-  Eigen::VectorXd q = coordinatesOf(observer, system_, dynamics.dof());
+Sketch SystemPicture::rotorSketch(const PictureMotion& motion, const Dynamics& dynamics) {
+  const EvaluationPoint<double>& at = motion.shaft;
   const Sketch still = dynamics.sketch(Eigen::VectorXd::Zero(dynamics.dof()), at);
-  if (still.empty()) {
-    const WhirlMotion whirl = observer.whirlOf(system_);
-    magnify(whirl.radius(), 1.0);
-    return discRotorSketch(magnification_ * whirl.x, magnification_ * whirl.y, at.angle);
+  if (still.empty() || motion.q.size() == 0) {
+    magnify(motion.whirl.radius(), 1.0);
+    return discRotorSketch(magnification_ * motion.whirl.x, magnification_ * motion.whirl.y,
+                           at.angle);
   }
+  Eigen::VectorXd q = motion.q;
   double radius = 0.0;
   for (const Station& station : dynamics.stations()) {
     radius = std::max(radius, std::hypot(station.along_x.dot(q), station.along_y.dot(q)));
@@ -150,10 +147,8 @@ Sketch SystemPicture::rotorSketch(const Observer& observer, const Dynamics& dyna
   return dynamics.sketch(q, at);
 }
 
-Sketch SystemPicture::sketch(const Observer& observer, const Dynamics& dynamics) {
-  return rotor_ ? rotorSketch(observer, dynamics)
-                : dynamics.sketch(coordinatesOf(observer, system_, dynamics.dof()),
-                                  observer.moment(system_));
+Sketch SystemPicture::sketch(const PictureMotion& motion, const Dynamics& dynamics) {
+  return rotor_ ? rotorSketch(motion, dynamics) : dynamics.sketch(motion.q, motion.shaft);
 }
 
 /// Of a rotor from its samples, magnified as its sketch is now; x: where it is along the shaft [m].
@@ -168,15 +163,14 @@ Json SystemPicture::path(double x) const {
   return points;
 }
 
-Json SystemPicture::take(const Observer& observer, const Dynamics& dynamics) {
-  const state::Instant now = observer.instant();
-  const bool runs = observer.status(system_) == StepStatus::kOk;
-  const Sketch drawn = runs ? sketch(observer, dynamics) : Sketch{};
-  Json json = {{"step", now.step},
-               {"time", now.time},
-               {"stopped", observer.stopReason(system_)},
-               {"speed", observer.moment(system_).speed},
-               {"angle", observer.moment(system_).angle},
+Json SystemPicture::take(const PictureMotion& motion, const Dynamics& dynamics) {
+  const bool runs = motion.stopped.empty() && (rotor_ || motion.q.size() > 0);
+  const Sketch drawn = runs ? sketch(motion, dynamics) : Sketch{};
+  Json json = {{"step", motion.at.step},
+               {"time", motion.at.time},
+               {"stopped", motion.stopped},
+               {"speed", motion.shaft.speed},
+               {"angle", motion.shaft.angle},
                {"magnification", rotor_ ? magnification_ : 1.0},
                {"names", names_},
                {"sketch", drawn.empty() ? Json() : sketchJson(drawn)},

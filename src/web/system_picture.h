@@ -1,14 +1,18 @@
 // The picture of a system for the page: its sketch (mechanics/sketch.h) at the newest state, and
-// the samples of its motion since the last picture. The motion of a rotor is magnified.
+// the samples of its motion since the last picture. The motion of a rotor is magnified; its samples
+// have velocities, too, so that a fast orbit is drawn as a curve through few points.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "mechanics/dynamics.h"
 #include "mechanics/sketch.h"
+#include "messages/states.h"
 #include "reports/output.h"
-#include "twin/observer.h"
+#include "twin/whirl_phase.h"
 
 namespace whirl_twin {
 
@@ -16,27 +20,35 @@ namespace whirl_twin {
 /// x, y: of the disc's centre, in widths of the picture; angle [rad] of the shaft.
 Sketch discRotorSketch(double x, double y, double angle);
 
+/// The motion of a system at an instant.
+struct PictureMotion {
+  state::Instant at;
+  EvaluationPoint<double> shaft;
+  WhirlMotion whirl;    ///< of a rotor
+  Eigen::VectorXd q;    ///< coordinates; empty: not known, of a rotor
+  std::string stopped;  ///< why it has stopped, or ""
+};
+
 class SystemPicture {
  public:
-  SystemPicture(std::size_t system, const BuiltSystem& built);
+  explicit SystemPicture(const Dynamics& dynamics);
 
-  /// Keeps the observer's state as a sample, or leaves some out, evenly, where there are too many.
-  void sample(const Observer& observer, const Dynamics& dynamics);
+  /// Keeps the motion as a sample, or leaves some out, evenly, where there are too many.
+  void sample(const PictureMotion& motion, const Dynamics& dynamics);
   /// With the samples since the last call. dynamics: with the present parameters.
-  Json take(const Observer& observer, const Dynamics& dynamics);
+  Json take(const PictureMotion& motion, const Dynamics& dynamics);
   /// The twin was reset.
   void restart();
 
  private:
   static constexpr std::size_t kMaxSamples = 64;  // of a picture
 
-  Sketch sketch(const Observer& observer, const Dynamics& dynamics);
-  Sketch rotorSketch(const Observer& observer, const Dynamics& dynamics);
+  Sketch sketch(const PictureMotion& motion, const Dynamics& dynamics);
+  Sketch rotorSketch(const PictureMotion& motion, const Dynamics& dynamics);
   void magnify(double radius, double size);
   Json path(double x) const;
   void clearSamples();
 
-  std::size_t system_;
   bool rotor_;
   std::vector<std::string> names_;           // of the samples' values
   std::vector<double> times_, speeds_;       // [s], [rad/s]

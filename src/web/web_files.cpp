@@ -27,8 +27,9 @@ constexpr std::array<std::pair<const char*, const char*>, 4> kTypes = {
 fs::path pageFolder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  for (const fs::path& folder :
-       {program.parent_path() / "../share/whirl_twin/web", fs::path(WHIRL_TWIN_SOURCE_WEB)}) {
+  for (const fs::path& folder : {program.parent_path() / "../share/whirl_twin/web",
+                                 program.parent_path() / "../../share/whirl_twin/web",  // of a node
+                                 fs::path(WHIRL_TWIN_SOURCE_WEB)}) {
     if (fs::is_directory(folder, error)) {
       return fs::weakly_canonical(folder, error);
     }

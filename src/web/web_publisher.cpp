@@ -6,10 +6,7 @@
 #include <utility>
 
 #include "messages/wall_clock.h"
-#include "reports/live_lines.h"
-#include "transport/channels.h"
 #include "twin/loop_report.h"
-#include "web/message_schema.h"
 #include "web/scene_description.h"
 
 namespace whirl_twin {
@@ -21,26 +18,12 @@ constexpr double kPicturePeriod = 1.0 / 30.0;  // s
 constexpr double kStillPeriod = 0.5;           // s, of pictures that do not change
 constexpr double kMonitorPeriod = 0.005;       // s
 constexpr auto kIdleTime = std::chrono::microseconds(500);
-constexpr int kMaxRecords = 64;   // between periodic tasks
-constexpr int kMaxInFlight = 64;  // batches
+constexpr int kMaxRecords = 64;  // between periodic tasks
 constexpr std::size_t kMaxWaitingTasks = 64;
-
-constexpr const char* kAlertsTopic = "alerts";
-constexpr const char* kSceneTopic = "scene";
-constexpr const char* kServerTopic = "server";
 
 /// [s], wall time.
 double steadyTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::string pictureTopic(const std::string& system) {
-  return system + "/picture";
-}
-
-/// Of messages that only the page reads.
-std::string objectSchema() {
-  return R"({"type":"object"})";
 }
 
 }  // namespace
@@ -53,7 +36,7 @@ struct WebPublisher::Sink {
   template <class Make>
   void operator()(const std::string& subject, Make make) {
     using State = decltype(make());
-    const bool sent = to.state_is_due_ && to.wanted(topicName(State::kKind, subject));
+    const bool sent = to.state_is_due_ && to.channels_.wanted(topicName(State::kKind, subject));
     if (!sent && !IsWatchedState<State>::value) {
       return;
     }
@@ -62,12 +45,12 @@ struct WebPublisher::Sink {
       to.monitor_.take(state, now);
     }
     if (sent) {
-      to.send(state);
+      to.channels_.send(state);
     }
   }
   void change(const state::ParameterChange& change) {
     to.monitor_.take(change);
-    to.send(change);
+    to.channels_.send(change);
     std::vector<ParameterValue> values;
     for (std::size_t i = 0; i < change.names.size(); ++i) {
       values.emplace_back(parameterName(change.system, change.names[i]), change.values[i]);
@@ -84,6 +67,7 @@ WebPublisher::WebPublisher(LiveTwin& live, const FixedRateLoop& loop, WebServer&
       loop_(loop),
       server_(server),
       protocol_(protocol),
+      channels_(server, protocol, "/twin"),
       observer_(live.twin(), live.generations()),
       orders_(live.twin()),
       ensembles_(live.ensembles()),
@@ -94,7 +78,7 @@ WebPublisher::WebPublisher(LiveTwin& live, const FixedRateLoop& loop, WebServer&
       stopped_(live.twin().systems().size()),
       newest_step_(live.stepCount()),
       started_(wallClock()) {
-  observer_.setStamp(stampOf(newest_step_));
+  setStamp(newest_step_);
   addChannels(live.twin(), read_only);
 }
 
@@ -102,49 +86,14 @@ WebPublisher::~WebPublisher() {
   join();
 }
 
-template <class State>
-void WebPublisher::addChannel(const std::string& subject, bool latched) {
-  const std::string topic = topicName(State::kKind, subject);
-  channels_[topic] =
-      protocol_.addChannel(topic, State::kKind.type, messageSchema<State>().dump(), latched);
-}
-
 void WebPublisher::addChannels(const Twin& twin, bool read_only) {
-  messages_.announce([this](auto kind, const std::string& subject) {
-    using State = typename decltype(kind)::State;
-    addChannel<State>(subject, State::kKind.has(MessageKind::kLatched));
-  });
+  addTwinChannels(channels_, twin.built(), messages_);
   for (const SharedSystem& system : twin.systems()) {
-    addChannel<state::StabilityMargin>(system->spec.name, true);
+    pictures_.emplace_back(*system->dynamics);
   }
-  for (const ControllerSpec& controller : twin.scene().controllers) {
-    addChannel<state::ControllerMargins>(controller.name, true);
-  }
-  addChannel<state::LoopStatistics>("", true);
-  addChannel<state::MonitorStatus>("", true);
-  const Json alerts = {
-      {"type", "object"},
-      {"properties", {{"alerts", {{"type", "array"}, {"items", messageSchema<state::Alert>()}}}}}};
-  channels_[kAlertsTopic] =
-      protocol_.addChannel(kAlertsTopic, state::Alert::kKind.type, alerts.dump(), true);
-  channels_[kSceneTopic] = protocol_.addChannel(kSceneTopic, "Scene", objectSchema(), true);
-  channels_[kServerTopic] = protocol_.addChannel(kServerTopic, "Server", objectSchema(), true);
-  for (std::size_t i = 0; i < twin.systems().size(); ++i) {
-    const BuiltSystem& system = *twin.systems()[i];
-    pictures_.emplace_back(i, system);
-    channels_[pictureTopic(system.spec.name)] =
-        protocol_.addChannel(pictureTopic(system.spec.name), "Picture", objectSchema(), false);
-  }
-  const Json scene = sceneDescription(twin, read_only);
-  for (const char* group : {"systems", "controllers"}) {
-    for (const Json& one : scene[group]) {
-      for (const Json& parameter : one["parameters"]) {
-        protocol_.setParameter(
-            {parameter["name"].get<std::string>(), parameter["value"].get<double>()});
-      }
-    }
-  }
-  send(kSceneTopic, scene);
+  const Json scene = sceneDescription(twin.built(), read_only);
+  addParameters(protocol_, scene);
+  channels_.sendForPage(kSceneTopic, scene);
 }
 
 void WebPublisher::start() {
@@ -172,7 +121,7 @@ void WebPublisher::run() {
   double next_picture = 0.0, next_still = 0.0, next_monitored = 0.0;
   double next_report = steadyTime() + kReportPeriod;
   report(steadyTime());  // identifies the run before its first state
-  send(kAlertsTopic, {{"alerts", Json::array()}});
+  channels_.sendAlerts({});
   while (!ending_.load()) {
     int taken = 0;
     while (taken < kMaxRecords && live_.pop(record.data())) {
@@ -198,14 +147,14 @@ void WebPublisher::run() {
     }
     if (std::exchange(stopped_now_, false) || now >= next_report) {
       report(now);
-      sendServerCounts();
+      channels_.sendServer("");
       next_report = now + kReportPeriod;
     }
     if (now >= next_monitored) {
       sendMonitored(now);
       next_monitored = now + kMonitorPeriod;
     }
-    flush();
+    channels_.flush();
     if (taken < kMaxRecords) {
       std::this_thread::sleep_for(kIdleTime);
     }
@@ -228,7 +177,7 @@ void WebPublisher::take(const double* record) {
   }
   observer_.observe(record);
   orders_.take(record, observer_);
-  observer_.setStamp(stampOf(step));
+  setStamp(step);
   const double now = steadyTime();
   if (restarted) {
     report(now);  // the new epoch precedes its states
@@ -248,16 +197,20 @@ void WebPublisher::take(const double* record) {
     const bool stopped = observer_.status(i) != StepStatus::kOk;
     stopped_now_ = stopped_now_ || (stopped && !stopped_[i]);
     stopped_[i] = stopped;
-    if (due && moved && !stopped && wanted(pictureTopic(live_.twin().systems()[i]->spec.name))) {
-      pictures_[i].sample(observer_, *dynamicsOf(i));
+    if (due && moved && !stopped &&
+        channels_.wanted(pictureTopic(live_.twin().systems()[i]->spec.name))) {
+      pictures_[i].sample(motionOf(i), *dynamicsOf(i));
     }
   }
 }
 
 /// Simulated time, which continues across a reset: clients require a clock that does not go back.
-std::int64_t WebPublisher::stampOf(std::int64_t step) const {
+void WebPublisher::setStamp(std::int64_t step) {
   const Scene& scene = live_.twin().scene();
-  return std::max<std::int64_t>(0, scene.time) + (earlier_steps_ + step) * scene.step;
+  const std::int64_t stamp =
+      std::max<std::int64_t>(0, scene.time) + (earlier_steps_ + step) * scene.step;
+  observer_.setStamp(stamp);
+  channels_.setStamp(stamp);
 }
 
 /// With the parameters of the newest record.
@@ -268,12 +221,24 @@ std::shared_ptr<const Dynamics> WebPublisher::dynamicsOf(std::size_t system) con
 void WebPublisher::sendPictures() {
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
     const std::string topic = pictureTopic(live_.twin().systems()[i]->spec.name);
-    if (wanted(topic)) {
-      send(topic, pictures_[i].take(observer_, *dynamicsOf(i)));
+    if (channels_.wanted(topic)) {
+      channels_.sendForPage(topic, pictures_[i].take(motionOf(i), *dynamicsOf(i)));
     }
   }
-  const std::int64_t stamp = observer_.instant().stamp;
-  server_.post([this, stamp] { protocol_.publishTime(stamp); });
+  server_.post([&protocol = protocol_, stamp = channels_.stamp()] { protocol.publishTime(stamp); });
+}
+
+PictureMotion WebPublisher::motionOf(std::size_t system) const {
+  const Dynamics& dynamics = *dynamicsOf(system);
+  PictureMotion motion;
+  motion.at = observer_.instant();
+  motion.shaft = observer_.moment(system);
+  motion.stopped = observer_.stopReason(system);
+  motion.q = Eigen::Map<const Eigen::VectorXd>(observer_.coordinates(system), dynamics.dof());
+  if (dynamics.isRotor()) {
+    motion.whirl = observer_.whirlOf(system);
+  }
+  return motion;
 }
 
 void WebPublisher::report(double now) {
@@ -292,10 +257,10 @@ void WebPublisher::report(double now) {
   reported_at_ = now;
   addStepTimes(live_, loop);
   monitor_.take(loop, now);
-  send(loop);
+  channels_.send(loop);
   state::MonitorStatus status = monitor_.status(now, loop.paused);
   status.at.stamp = loop.at.stamp;
-  send(status);
+  channels_.send(status);
 }
 
 void WebPublisher::sendMonitored(double now) {
@@ -309,68 +274,16 @@ void WebPublisher::sendMonitored(double now) {
   }
   monitor_.tick(now, live_.paused());
   for (const state::StabilityMargin& margin : monitor_.takeMargins()) {
-    send(margin);
+    channels_.send(margin);
   }
   for (const state::ControllerMargins& margins : monitor_.takeLoopMargins()) {
-    send(margins);
+    channels_.send(margins);
   }
   monitor_.takeOrders();  // of measurements, which no one sends here
   monitor_.alerts().takeEvents();
   if (monitor_.alerts().takeChanged()) {
-    send(kAlertsTopic,
-         {{"alerts", listJson(monitor_.alerts().active(),
-                              [](const state::Alert& alert) { return messageJson(alert); })}});
+    channels_.sendAlerts(monitor_.alerts().active());
   }
-}
-
-void WebPublisher::sendServerCounts() {
-  const WebCounts& counts = server_.counts();
-  send(kServerTopic, {{"clients", counts.clients.load()},
-                      {"sent", counts.sent.load()},
-                      {"dropped", counts.dropped.load()},
-                      {"refused", counts.refused.load()},
-                      {"malformed", counts.malformed.load()}});
-}
-
-bool WebPublisher::wanted(const std::string& topic) const {
-  const auto found = channels_.find(topic);
-  return found != channels_.end() && protocol_.wanted(found->second);
-}
-
-template <class State>
-void WebPublisher::send(const State& state) {
-  send(topicOf(state), messageJson(state));
-}
-
-void WebPublisher::send(const std::string& topic, const Json& json) {
-  const auto found = channels_.find(topic);
-  if (found == channels_.end() || !protocol_.wanted(found->second)) {
-    return;
-  }
-  out_.push_back({found->second, observer_.instant().stamp,
-                  std::make_shared<const std::string>(
-                      json.dump(-1, ' ', false, Json::error_handler_t::replace))});
-}
-
-/// Hands the messages to the server's thread. Where that is far behind, only the newest values of
-/// latched channels.
-void WebPublisher::flush() {
-  if (out_.empty()) {
-    return;
-  }
-  if (in_flight_.load() >= kMaxInFlight) {
-    out_.erase(std::remove_if(out_.begin(), out_.end(),
-                              [this](const ChannelMessage& message) {
-                                return !protocol_.latched(message.channel);
-                              }),
-               out_.end());
-  }
-  in_flight_.fetch_add(1);
-  server_.post([this, batch = std::move(out_)] {
-    protocol_.publish(batch);
-    in_flight_.fetch_sub(1);
-  });
-  out_.clear();
 }
 
 }  // namespace whirl_twin

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -25,6 +24,7 @@
 #include "twin/step_messages.h"
 #include "web/protocol.h"
 #include "web/system_picture.h"
+#include "web/web_channels.h"
 
 namespace whirl_twin {
 
@@ -49,26 +49,20 @@ class WebPublisher {
   struct Sink;
 
   void addChannels(const Twin& twin, bool read_only);
-  template <class State>
-  void addChannel(const std::string& subject, bool latched);
   void run();
   void take(const double* record);
   void sendPictures();
   void report(double now);
   void sendMonitored(double now);
-  void sendServerCounts();
-  bool wanted(const std::string& topic) const;
-  template <class State>
-  void send(const State& state);
-  void send(const std::string& topic, const Json& json);
-  void flush();
   std::shared_ptr<const Dynamics> dynamicsOf(std::size_t system) const;
-  std::int64_t stampOf(std::int64_t step) const;
+  PictureMotion motionOf(std::size_t system) const;
+  void setStamp(std::int64_t step);
 
   LiveTwin& live_;
   const FixedRateLoop& loop_;
   WebServer& server_;
   Protocol& protocol_;
+  WebChannels channels_;
   Observer observer_;
   OrderObserver orders_;
   EnsembleObserver ensembles_;
@@ -76,11 +70,8 @@ class WebPublisher {
   TwinMonitor monitor_;
   EvenThinning thinning_;
   std::int64_t every_;  // steps
-  std::map<std::string, ChannelId> channels_;
   std::vector<SystemPicture> pictures_;
   std::vector<bool> stopped_;
-  std::vector<ChannelMessage> out_;
-  std::atomic<int> in_flight_{0};  // batches that the server has not taken
   std::int64_t newest_step_;
   std::int64_t earlier_steps_ = 0;  // before the last reset: stamps do not go back
   std::uint64_t left_out_ = 0;

@@ -7,7 +7,6 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
@@ -15,6 +14,7 @@
 #include <utility>
 
 #include "messages/input_error.h"
+#include "web/http_response.h"
 
 namespace whirl_twin {
 
@@ -22,7 +22,6 @@ namespace {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
-namespace http = boost::beast::http;
 namespace websocket = boost::beast::websocket;
 using Tcp = asio::ip::tcp;
 using Error = boost::system::error_code;
@@ -32,37 +31,6 @@ constexpr auto kGoodbye = std::chrono::milliseconds(200);
 constexpr auto kAcceptAgain = std::chrono::milliseconds(100);
 constexpr std::uint32_t kHeaderLimit = 8192;  // bytes
 constexpr std::uint64_t kBodyLimit = 1024;    // bytes; no request needs one
-
-using Request = http::request<http::string_body>;
-using Response = http::response<http::string_body>;
-
-std::string_view viewOf(beast::string_view text) {
-  return {text.data(), text.size()};
-}
-
-Response responseOf(const Request& request, http::status status, const std::string& type,
-                    std::string content) {
-  Response response(status, request.version());
-  response.set(http::field::content_type, type);
-  response.set(http::field::cache_control, "no-cache");
-  response.set("X-Content-Type-Options", "nosniff");
-  response.set("Referrer-Policy", "no-referrer");
-  response.set(
-      "Content-Security-Policy",
-      "default-src 'self'; connect-src 'self' ws:; frame-ancestors 'none'; base-uri 'none'");
-  response.keep_alive(request.keep_alive());
-  response.content_length(content.size());
-  if (request.method() != http::verb::head) {
-    response.body() = std::move(content);
-  }
-  return response;
-}
-
-Response refusalOf(const Request& request, http::status status, const std::string& why) {
-  Response response = responseOf(request, status, "text/plain; charset=utf-8", why + "\n");
-  response.keep_alive(false);
-  return response;
-}
 
 }  // namespace
 
@@ -106,13 +74,13 @@ class WebServer::WebSocket : public std::enable_shared_from_this<WebServer::WebS
   }
 
   bool send(WebMessage message) {
-    const std::size_t limit = server_.limits_.queue;
+    const std::size_t limit = (message.kept ? 2 : 1) * server_.limits_.queue;
     if (ended_ || closing_) {
       return false;
     }
     if (waiting_bytes_ + message.size() > limit) {
       ++server_.counts_.dropped;
-      if (message.answer) {  // it sends requests and reads no answers
+      if (message.kept) {  // without it, the client would show what is not so
         disconnect();
       }
       return false;
@@ -340,7 +308,7 @@ WebServer::WebServer(WebAccess access, const WebLimits& limits, WebFiles files)
   const std::string literal = access_.address == "localhost" ? "127.0.0.1" : access_.address;
   const auto address = asio::ip::make_address(literal, error);
   if (error) {
-    throw InputError(fmt::format("--address: must be an IP address, found '{}'", access_.address));
+    throw InputError(fmt::format("address: must be an IP address, found '{}'", access_.address));
   }
   const Tcp::endpoint endpoint(address, access_.port);
   try {
@@ -350,10 +318,10 @@ WebServer::WebServer(WebAccess access, const WebLimits& limits, WebFiles files)
     io_->acceptor.listen();
   } catch (const boost::system::system_error& failure) {
     throw RunFailure(failure.code() == asio::error::address_in_use
-                         ? fmt::format("--port: {} is in use on {}; --port 0 takes any free one",
+                         ? fmt::format("port: {} is in use on {}; 0 takes any free one",
                                        access_.port, access_.address)
-                         : fmt::format("--address: cannot listen on {} port {}: {}",
-                                       access_.address, access_.port, failure.code().message()));
+                         : fmt::format("address: cannot listen on {} port {}: {}", access_.address,
+                                       access_.port, failure.code().message()));
   }
   access_.port = io_->acceptor.local_endpoint().port();
 }

@@ -24,7 +24,7 @@ struct WebLimits {
   std::size_t clients = 8;              ///< by WebSocket
   std::size_t connections = 32;         ///< all
   std::size_t message = 65'536;         ///< [bytes], from a client
-  std::size_t queue = 4 * 1024 * 1024;  ///< [bytes], of messages that wait for a client
+  std::size_t queue = 4 * 1024 * 1024;  ///< [bytes], of states that wait for a client
 };
 
 /// A file of the page.
@@ -40,10 +40,12 @@ struct WebMessage {
   std::string head;                         ///< before the body, of this client
   std::shared_ptr<const std::string> body;  ///< common to all clients; may be null
   bool binary = false;
-  /// An answer that must not be lost: a client whose queue has no place for it is disconnected.
-  bool answer = false;
+  /// Must not be lost, as an answer or the newest alerts: it may use as much again as the queue of
+  /// a client, which is disconnected where that is full, too.
+  bool kept = false;
 
-  std::size_t size() const { return head.size() + (body ? body->size() : 0); }
+  /// [bytes], that it takes while it waits.
+  std::size_t size() const { return sizeof(WebMessage) + head.size() + (body ? body->size() : 0); }
 };
 
 /// Counts since the start. Any thread.

@@ -17,6 +17,7 @@ import unittest
 
 from lcm_log import SYNC, event, events
 from mcap_file import McapFile, whole_chunks
+from ros_messages import Definition
 
 TWIN, SCENE = sys.argv[1:3]
 
@@ -32,6 +33,27 @@ def bag_tools():
 
 
 ROSBAG, ROSLZ4 = bag_tools()
+
+
+def a_bag(topic, kind, definition, message):
+    """A rosbag with one message, without the index at its end."""
+    def record(header, data):
+        fields = b''.join(struct.pack('<I', len(name) + 1 + len(value)) + name + b'=' + value for name, value in header)
+        return struct.pack('<I', len(fields)) + fields + struct.pack('<I', len(data)) + data
+
+    def fields(**values):
+        return b''.join(struct.pack('<I', len(name) + 1 + len(value)) + name.encode() + b'=' + value
+                        for name, value in values.items())
+
+    number = struct.pack('<I', 0)
+    connection = record([(b'op', b'\7'), (b'conn', number), (b'topic', topic.encode())],
+                        fields(topic=topic.encode(), type=kind.encode(), md5sum=b'0' * 32,
+                               message_definition=definition.encode()))
+    chunk = connection + record([(b'op', b'\2'), (b'conn', number), (b'time', struct.pack('<II', 1, 0))], message)
+    head = record([(b'op', b'\3'), (b'index_pos', bytes(8)), (b'conn_count', struct.pack('<I', 1)),
+                   (b'chunk_count', struct.pack('<I', 1))], b' ' * 4000)
+    return b'#ROSBAG V2.0\n' + head + record(
+        [(b'op', b'\5'), (b'compression', b'none'), (b'size', struct.pack('<I', len(chunk)))], chunk)
 
 
 class Export(unittest.TestCase):
@@ -100,6 +122,46 @@ class Export(unittest.TestCase):
             sequence = [s for c, s, _, _, _ in mcap.messages if c == i]
             self.assertEqual(sequence, list(range(len(sequence))), channel)
         self.assertGreater(len(mcap.chunks), 1, 'a log of several chunks is what this asks about')
+
+    def test_messages_of_ros_2_have_the_same_values(self):
+        _, mcap = self.mcap(self.log, '--profile', 'ros2')
+        self.assertEqual(mcap.profile, 'ros2')
+        self.assertEqual([m[2] for m in mcap.messages], [m[2] for m in self.whole.messages])
+        read = {}
+        for old, new in zip(self.whole.messages, mcap.messages):
+            (topic, old_schema, _), (new_topic, new_schema, metadata) = self.whole.channels[old[0]], mcap.channels[new[0]]
+            (old_name, old_text), (new_name, new_text) = self.whole.schemas[old_schema], mcap.schemas[new_schema]
+            self.assertEqual((topic, old_name.replace('/', '/msg/')), (new_topic, new_name))
+            self.assertIn('offered_qos_profiles', metadata)
+            if topic not in read:
+                read[topic] = Definition(old_text, ros2=False), Definition(new_text, ros2=True)
+            before, after = (definition.read(data) for definition, data in zip(read[topic], (old[4], new[4])))
+            if 'header' in before:
+                del before['header']['seq']
+                stamp = before['header']['stamp']
+                before['header']['stamp'] = {'sec': stamp['secs'], 'nanosec': stamp['nsecs']}
+            self.assertEqual(repr(before), repr(after))  # NaN is itself
+        self.assertGreater(len(read), 5)
+        self.assertIn('--profile: must be with --mcap', self.refused(self.log, '--bag', self.path('x.bag'), '--profile', 'ros2'))
+
+    def test_cdr_of_a_bag_that_has_everything(self):
+        """Alignment and lengths of each kind, to the byte."""
+        text = ('uint8 a\nfloat64 b\nstring c\nint16[] d\nuint8[3] e\nfloat64[] f\ntime g\nduration[] h\nstring[] i\nbyte j\n'
+                'char k\na_package/Empty l\nbool m\n' + '=' * 80 + '\nMSG: a_package/Empty\n')
+        ros1 = (b'\x07' + struct.pack('<d', 1.5) + b'\3\0\0\0abc' + b'\2\0\0\0\xff\xff\1\0' + b'\1\2\3' + b'\0\0\0\0' +
+                b'\5\0\0\0\6\0\0\0' + b'\1\0\0\0\xff\xff\xff\xff\7\0\0\0' + b'\1\0\0\0\0\0\0\0' + b'\xfe' + b'\xfd' + b'\1')
+        cdr = (b'\0\1\0\0' b'\7' + bytes(7) + struct.pack('<d', 1.5) + b'\4\0\0\0abc\0' + b'\2\0\0\0\xff\xff\1\0' + b'\1\2\3' +
+               b'\0' + b'\0\0\0\0' + b'\5\0\0\0\6\0\0\0' + b'\1\0\0\0\xff\xff\xff\xff\7\0\0\0' + b'\1\0\0\0' + b'\1\0\0\0\0' +
+               b'\xfe' + b'\xfd' + b'\0' + b'\1')
+        bag = self.file('every.bag', a_bag('/every', 'a_package/Every', text, ros1))
+        _, mcap = self.mcap(bag, '--profile', 'ros2')
+        self.assertEqual(mcap.messages[0][4], cdr)
+        (name, definition), = mcap.schemas.values()
+        self.assertEqual(name, 'a_package/msg/Every')
+        fields = Definition(definition, ros2=True).fields(definition.partition('=' * 80)[0])
+        self.assertEqual([kind for _, kind, _ in fields],
+                         ['uint8', 'float64', 'string', 'int16', 'uint8', 'float64', 'builtin_interfaces/Time',
+                          'builtin_interfaces/Duration', 'string', 'int8', 'uint8', 'a_package/Empty', 'bool'])
 
     @unittest.skipUnless(ROSBAG, 'rosbag is not installed')
     def test_a_bag_says_what_the_mcap_file_says(self):

@@ -118,18 +118,18 @@ class McapFile:
                                'index_length': 0, 'compression': compression, 'sizes': (len(packed), size)}
         return self.chunks[offset]
 
-    @staticmethod
-    def definition(opcode, record, schemas, channels):
+    def definition(self, opcode, record, schemas, channels):
         content = Content(record)
         if opcode == SCHEMA:
             number, name, encoding, text = content.number(2), content.text(), content.text(), content.text()
-            assert number > 0 and number not in schemas and encoding == 'ros1msg'
+            assert number > 0 and number not in schemas and encoding == self.profile + 'msg'
             schemas[number] = (name, text)
         else:
             assert opcode == CHANNEL
             number, schema, topic, encoding = content.number(2), content.number(2), content.text(), content.text()
             metadata = content.pairs(Content.text, Content.text)
-            assert number not in channels and schema in schemas and encoding == 'ros1'
+            assert number not in channels and schema in schemas
+            assert encoding == {'ros1': 'ros1', 'ros2': 'cdr'}[self.profile]
             assert len(dict(metadata)) == len(metadata)
             channels[number] = (topic, schema, dict(metadata))
         content.end()

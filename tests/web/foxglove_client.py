@@ -121,7 +121,9 @@ class Client:
             return json.loads(payload)
         if payload[0] == 1:
             subscription, stamp = struct.unpack_from("<IQ", payload, 1)
-            return "message", self.subscriptions[subscription], stamp, json.loads(payload[13:])
+            topic, content = self.subscriptions[subscription], payload[13:]
+            is_json = self.channels[topic]["encoding"] == "json"
+            return "message", topic, stamp, json.loads(content) if is_json else content
         if payload[0] == 2:
             return "time", struct.unpack_from("<Q", payload, 1)[0]
         service, call, length = struct.unpack_from("<III", payload, 1)
@@ -174,6 +176,10 @@ class Client:
                             if isinstance(message, tuple)
                             else message["op"] == "serviceCallFailure" and message["callId"] == call)
         return answer[3] if isinstance(answer, tuple) else answer["message"]
+
+    def publish(self, number, content):
+        """A message on a channel that the client has advertised."""
+        self.send(struct.pack("<BI", 1, number) + json.dumps(content).encode(), BINARY)
 
     def parameters(self, *names):
         self.calls += 1

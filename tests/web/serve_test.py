@@ -10,9 +10,13 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import unittest
 
 from foxglove_client import PATIENCE, Client, Refused, get
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, 'tools'))
+from ros_messages import Definition  # noqa: E402
 
 TWIN = sys.argv[1]
 SUBPROTOCOLS = ('foxglove.websocket.v1', 'foxglove.sdk.v1')
@@ -70,7 +74,8 @@ class Paused(unittest.TestCase):
             with Client(self.server.port, name) as client:
                 self.assertEqual(client.head['sec-websocket-protocol'], name)
                 info = client.greeting()
-                self.assertEqual(set(info['capabilities']), {'time', 'parameters', 'parametersSubscribe', 'services'})
+                self.assertEqual(set(info['capabilities']),
+                                 {'time', 'parameters', 'parametersSubscribe', 'services', 'clientPublish'})
                 self.assertEqual(info['supportedEncodings'], ['json'])
         with Client(self.server.port, 'other, foxglove.sdk.v1') as client:
             self.assertEqual(client.head['sec-websocket-protocol'], 'foxglove.sdk.v1')
@@ -146,6 +151,57 @@ class Paused(unittest.TestCase):
             self.assertEqual(set(fields), set(whirl))
             sketch = client.of('rotor/picture', lambda content: content['step'] == 2000)['sketch']
             self.assertEqual(len(sketch['discs']), 1)
+
+    def test_messages_of_ros_have_the_same_values(self):
+        with self.server.client() as client:
+            client.call('reset')
+            names = [topic for topic in client.channels if '/twin/' + topic in client.channels]
+            self.assertEqual({'/twin/' + name for name in names} | set(names) | {
+                topic for topic in client.channels if topic.endswith('/picture')} | {'scene', 'server'}, set(client.channels))
+            client.subscribe(*names, *('/twin/' + name for name in names))
+            client.call('step', {'steps': 1500})
+            seen = 0
+            for name in names:
+                channel = client.channels['/twin/' + name]
+                self.assertEqual((channel['encoding'], channel['schemaEncoding']), ('ros1', 'ros1msg'))
+                definition = Definition(channel['schema'], ros2=False)
+                if name in ('rotor/whirl', 'pendulum/pendulum', 'drives/shaft', 'rotor/orders', 'rotor/parameters', 'alerts'):
+                    text = client.of(name, lambda content: content.get('step', 1) > 0 or name.endswith('parameters'))
+                    read = client.of('/twin/' + name, lambda data: definition.read(data).get('step') == text.get('step'))
+                    read = definition.read(read)
+                    for field in set(text) & set(read) - {'alerts', 'header'}:
+                        value = [x if x == x else None for x in read[field]] if isinstance(read[field], list) else \
+                            read[field] if read[field] == read[field] else None
+                        self.assertEqual(value, text[field], (name, field))
+                        seen += 1
+            self.assertGreater(seen, 40)
+
+    def test_published_inputs(self):
+        """A force on a cart without a spring: it moves by F t^2 / 2 m."""
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml') as scene:
+            scene.write('{name: cart, step: 0.001, systems: {cart: {model: mass_spring_damper, inputs: {force: 0.0}, '
+                        'parameters: {mass: 2.0, stiffness: 0.0, damping: 0.0}}}}')
+            scene.flush()
+            self.publish_inputs(scene.name)
+
+    def publish_inputs(self, scene):
+        with Server('--paused', '--rate', '0', scene=scene) as server, server.client() as client:
+            client.send({'op': 'advertise', 'channels': [{'id': 7, 'topic': '/twin/cart/inputs', 'encoding': 'json',
+                                                          'schemaName': ''}]})
+            client.subscribe('cart/pendulum')
+            client.publish(7, {'input': ['force'], 'value': [3.0], 'duration': 1.0})
+            client.call('step', {'steps': 1000})
+            self.assertAlmostEqual(client.of('cart/pendulum', lambda content: content['step'] == 1000)['angle'][0], 0.75, 2)
+            for content, why in (({'input': ['no'], 'value': [1.0], 'duration': 1.0}, 'input: must be'),
+                                 ({'input': ['force'], 'value': [], 'duration': 1.0}, 'must be {"input"'),
+                                 ({'input': ['force'], 'value': [1.0], 'duration': -1.0}, 'duration'),
+                                 ([], 'must be {"input"')):
+                client.publish(7, content)
+                self.assertIn(why, client.op('status')['message'])
+            client.publish(8, {})
+            self.assertIn('advertised', client.op('status')['message'])
+            client.send({'op': 'advertise', 'channels': [{'id': 9, 'topic': 'other', 'encoding': 'json', 'schemaName': ''}]})
+            self.assertIn('SYSTEM/inputs', client.op('status')['message'])
 
     def test_stamps_do_not_go_back_in_a_reset(self):
         with self.server.client() as client:
@@ -316,12 +372,11 @@ class Running(unittest.TestCase):
             second = subprocess.run([TWIN, 'serve', 'demo', '--port', str(server.port)], capture_output=True, text=True,
                                     timeout=PATIENCE)
             self.assertEqual(second.returncode, 1)
-            self.assertEqual(second.stderr, f'twin: --port: {server.port} is in use on 127.0.0.1; --port 0 takes any free '
-                                            'one\n')
+            self.assertEqual(second.stderr, f'twin: port: {server.port} is in use on 127.0.0.1; 0 takes any free one\n')
 
     def test_wrong_options(self):
         for arguments, why in ((['--port', '70000'], '--port: must be from 0'), (['--rate', '-1'], '--rate: must be'),
-                               (['--address', 'nowhere'], '--address: must be an IP address'),
+                               (['--address', 'nowhere'], 'address: must be an IP address'),
                                (['--real-time-factor', '-1'], 'real_time_factor: must be')):
             run = subprocess.run([TWIN, 'serve', 'demo', *arguments], capture_output=True, text=True,
                                  timeout=PATIENCE)
