@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <utility>
 
@@ -217,6 +218,10 @@ class UffTable : public NumberTable {
 }  // namespace
 
 bool isUffFile(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return false;  // a pipe would wait for its writer
+  }
   std::ifstream in(path, std::ios::binary);
   std::array<char, 80> begin{};
   in.getline(begin.data(), begin.size());

@@ -45,6 +45,10 @@ bool isTable(const std::string& path) {
       return false;
     }
   }
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
+    return false;  // a pipe would wait for its writer
+  }
   std::array<char, 1024> begin{};
   std::ifstream in(path, std::ios::binary);
   in.read(begin.data(), begin.size());

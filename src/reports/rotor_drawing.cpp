@@ -145,7 +145,10 @@ RotorDrawing drawingOfElements(const std::string& path) {
   std::getline(in, line);
   std::vector<Column> columns;
   std::vector<std::string_view> cells;
-  splitCells(line.rfind("\xef\xbb\xbf", 0) == 0 ? line.substr(3) : line, ',', cells);
+  if (line.rfind("\xef\xbb\xbf", 0) == 0) {
+    line.erase(0, 3);
+  }
+  splitCells(line, ',', cells);
   for (const std::string_view heading : cells) {
     columns.push_back(columnOf(std::string(heading), diagnostics));
   }

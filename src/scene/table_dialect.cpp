@@ -86,7 +86,8 @@ constexpr std::array<Way, 9> kWays = {{{',', '.'},
                                        {',', ','},
                                        {'|', '.'}}};
 
-/// Of a way to read the lines: how many are rows of numbers, of as many as most of them have.
+/// Of a way to read the lines: how many are rows of numbers, of as many as most of them have, or
+/// the more of two counts that are as frequent.
 struct Fit {
   std::size_t rows = 0, cells = 0;
 
@@ -108,7 +109,7 @@ Fit fitOf(const Way& way, const std::vector<std::string>& lines, const TableDial
   rows.erase(0);
   Fit best;
   for (const auto& [count, times] : rows) {
-    best = times > best.rows ? Fit{times, count} : best;
+    best = times >= best.rows ? Fit{times, count} : best;
   }
   return best;
 }

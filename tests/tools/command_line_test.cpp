@@ -14,10 +14,11 @@ bool contains(const std::string& text, const std::string& part) {
 
 /// In the order of `twin --help`.
 constexpr const char* kCommands[] = {
-    "check",  "scenes", "models",  "controllers", "units",    "new",     "import", "simulate",
-    "serve",  "plot",   "analyze", "campbell",    "response", "orbit",   "map",    "stability",
-    "report", "loop",   "modes",   "balance",     "tradeoff", "sweep",   "routh",  "log",
-    "record", "play",   "spy",     "watch",       "export",   "monitor", "fit",    "follow"};
+    "check",    "scenes",    "models",  "controllers", "units",    "new",      "import",
+    "simulate", "serve",     "plot",    "analyze",     "campbell", "response", "orbit",
+    "map",      "stability", "report",  "loop",        "modes",    "bode",     "balance",
+    "tradeoff", "sweep",     "routh",   "log",         "record",   "play",     "spy",
+    "watch",    "export",    "monitor", "fit",         "follow"};
 
 /// "; there are: check, scenes, ...", as reported for an unknown command.
 std::string thereAre() {
@@ -54,8 +55,9 @@ INSTANTIATE_TEST_SUITE_P(Commands, CommandHelp,
                          testing::Values("check", "scenes", "models", "units", "new", "simulate",
                                          "serve", "plot", "analyze", "campbell", "response",
                                          "orbit", "map", "stability", "report", "loop", "modes",
-                                         "balance", "tradeoff", "sweep", "routh", "log", "record",
-                                         "play", "spy", "watch", "export", "monitor", "follow"));
+                                         "bode", "balance", "tradeoff", "sweep", "routh", "log",
+                                         "record", "play", "spy", "watch", "export", "monitor",
+                                         "follow"));
 
 TEST(CommandLine, TheVersionIsThatOfThePackage) {
   const std::string package = contentsOf(WHIRL_TWIN_SOURCE "/package.xml");

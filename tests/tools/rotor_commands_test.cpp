@@ -293,7 +293,7 @@ TEST(Orbit, OfAPedestalIsThatOfARun) {
   const TemporaryDirectory folder;
   const std::string scene = folder.write("pedestals.yaml", kOnPedestals);
   const Ending end =
-      twin({"simulate", scene, "--duration", "4", "--output", folder.file("run.csv")});
+      twin({"simulate", scene, "--duration", "16", "--output", folder.file("run.csv")});
   ASSERT_EQ(end.status, 0) << end.err;
   const Lines rows = linesOf(contentsOf(folder.file("run.csv")));
   std::vector<std::string> names;

@@ -237,7 +237,7 @@ TEST_F(DivergingScene, TableGoesOnWithNan) {
   const Lines rows = linesOf(contentsOf(path));
   // calm: x = 0.001 cos(10 t) = -0.00083907 m at 1 s.
   ASSERT_EQ(rows.size(), 1u + 1001u);
-  EXPECT_EQ(rows.back().find("1,nan,nan,nan,nan,nan,nan,-0.00083"), 0u) << rows.back();
+  EXPECT_EQ(rows.back().find("1,nan,nan,nan,nan,nan,nan,nan,nan,0,0,-0.00083"), 0u) << rows.back();
 }
 
 TEST_F(DivergingScene, ASystemThatIsNotShownDoesNotFailTheRun) {

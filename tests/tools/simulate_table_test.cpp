@@ -36,8 +36,8 @@ TEST(Table, HeaderAndRows) {
   EXPECT_EQ(rows[0],
             "time,rotor.x,rotor.y,rotor.x_rate,rotor.y_rate,rotor.whirl_radius,rotor.whirl_phase,"
             "rotor.disc.x,rotor.disc.y,rotor.shaft_speed,rotor.shaft_angle,"
-            "pendulum.theta,pendulum.theta_rate");
-  EXPECT_EQ(rows[1], "0,0,0,0,0,0,nan,0,0,0,0,0.050000000000000003,0");
+            "pendulum.theta,pendulum.theta_rate,pendulum.shaft_speed,pendulum.shaft_angle");
+  EXPECT_EQ(rows[1], "0,0,0,0,0,0,nan,0,0,0,0,0.050000000000000003,0,0,0");
   EXPECT_EQ(fields(rows[2])[0], "0.01");
   EXPECT_EQ(fields(rows.back())[0], "0.5");
 }
@@ -51,9 +51,11 @@ TEST(Table, OneSystemOnly) {
   const Lines all = table({kDemo, "--duration", "0.2"});
   const Lines one = table({kDemo, "--duration", "0.2", "--system", "pendulum"});
   ASSERT_EQ(one.size(), all.size());
-  EXPECT_EQ(one[0], "time,pendulum.theta,pendulum.theta_rate");
+  EXPECT_EQ(one[0],
+            "time,pendulum.theta,pendulum.theta_rate,pendulum.shaft_speed,pendulum.shaft_angle");
   const auto whole = fields(all.back());
-  EXPECT_EQ(fields(one.back()), (std::vector<std::string>{whole[0], whole[11], whole[12]}));
+  EXPECT_EQ(fields(one.back()),
+            (std::vector<std::string>{whole[0], whole[11], whole[12], whole[13], whole[14]}));
 }
 
 // The demo's profile: 1.2 s + 3 s, then two longer moves; its sum is in `twin check`.
