@@ -143,7 +143,7 @@ class Browser(unittest.TestCase):
             self.wait(lambda: abs(float(number.get_attribute('value')) - mass) < 1e-5 * mass, 'not the value of the twin')
 
     def test_an_alarm_is_acknowledged(self):
-        with Server('--real-time-factor', '0') as server:
+        with Server('--real-time-factor', '3') as server:
             self.open(server)
             self.wait(lambda: self.driver.find_elements(By.XPATH, '//li//button[text()="Acknowledge"]'), 'no alarm')
             self.one('#pause').click()
