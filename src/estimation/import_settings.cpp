@@ -1,10 +1,15 @@
 #include "estimation/import_settings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <utility>
 #include <vector>
 
 #include "messages/input_error.h"
+#include "messages/names.h"
+#include "messages/units.h"
 #include "scene/error_list.h"
 #include "scene/node_reader.h"
 #include "scene/yaml_file.h"
@@ -82,6 +87,76 @@ ImportSettings readImportSettings(const std::string& path) {
     throw InputError(errorList(diagnostics.all(), "\ntwin: "));
   }
   return settings;
+}
+
+void ImportSettings::requireChannelsOf(const std::vector<EstimatorSource>& sources) const {
+  std::vector<std::string> known_channels, known_keyphasors = {""};
+  for (const EstimatorSource& source : sources) {
+    for (const EstimatorSource::Channel& channel : source.channels) {
+      known_channels.push_back(source.name + "/" + channel.name);
+      known_channels.push_back(channel.name);
+    }
+    if (source.keyphasor) {
+      known_keyphasors.push_back(source.name);
+    }
+  }
+  const auto require = [](const auto& given, const std::vector<std::string>& known,
+                          const char* what) {
+    for (const auto& [name, unused] : given) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        throw InputError(fmt::format("settings of the import: the scene has no {} {}{}", what,
+                                     inQuotes(name), hint(name, known)));
+      }
+    }
+  };
+  require(channels, known_channels, "channel");
+  require(keyphasors, known_keyphasors, "keyphasor");
+}
+
+const KeyphasorImport* ImportSettings::keyphasorOf(const std::string& source) const {
+  for (const std::string& name : {source, std::string()}) {
+    if (const auto found = keyphasors.find(name); found != keyphasors.end()) {
+      return &found->second;
+    }
+  }
+  return nullptr;
+}
+
+ImportScale importScale(const EstimatorSource::Channel& channel, const ColumnImport& given,
+                        const TableColumn& column) {
+  const std::string unit = given.unit.empty() ? column.unit : given.unit;
+  if (given.scale.empty()) {
+    const double scale = unitScale(unit, channel.unit);
+    if (scale == 0.0) {
+      throw InputError(fmt::format(
+          "column {}: must be in {} or another unit of that kind, or be a voltage with `scale` "
+          "in "
+          "the settings of the import ({}: {{scale: 200 mV/mil, gap: -10 V}}), found {}",
+          inQuotes(column.heading), channel.unit, channel.name, printable(unit)));
+    }
+    return {scale, 0.0};
+  }
+  const double volts = unitScale(unit, "V");
+  const std::optional<double> scale = parseQuantity(given.scale, "V/(" + channel.unit + ")");
+  if (volts == 0.0 || scale.value_or(0.0) == 0.0) {
+    throw InputError(fmt::format(
+        "column {}: must be in V with a scale in V/({}), such as 200 mV/mil, found {} and {}",
+        inQuotes(column.heading), channel.unit, unit.empty() ? "V" : printable(unit),
+        inQuotes(given.scale)));
+  }
+  return {volts / *scale, given.gap / volts};
+}
+
+bool isKeyphasorName(const std::string& name, const std::string& source) {
+  std::string word;
+  for (const char c : name) {
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+  }
+  static const std::vector<std::string> words = {"keyphasor", "tacho", "tach",    "tachometer",
+                                                 "keyphase",  "kph",   "trigger", "phasereference"};
+  return name == source || std::find(words.begin(), words.end(), word) != words.end();
 }
 
 }  // namespace whirl_twin

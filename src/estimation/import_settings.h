@@ -4,7 +4,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "estimation/estimator_sources.h"
 #include "scene/table_dialect.h"
 
 namespace whirl_twin {
@@ -26,7 +28,23 @@ struct ImportSettings {
   TableSettings table;
   std::map<std::string, ColumnImport> channels;       ///< by channel, or source/channel
   std::map<std::string, KeyphasorImport> keyphasors;  ///< by source; "" if there is one only
+
+  /// Throws InputError for a channel or a keyphasor that the sources do not have.
+  void requireChannelsOf(const std::vector<EstimatorSource>& sources) const;
+  /// Of this source; nullptr if nothing is given.
+  const KeyphasorImport* keyphasorOf(const std::string& source) const;
 };
+
+/// channel = scale (column - zero)
+struct ImportScale {
+  double scale = 1.0, zero = 0.0;
+};
+/// Throws InputError for units that cannot be converted.
+ImportScale importScale(const EstimatorSource::Channel& channel, const ColumnImport& given,
+                        const TableColumn& column);
+
+/// Is it a usual name of a keyphasor's column, or that of its source?
+bool isKeyphasorName(const std::string& name, const std::string& source);
 
 /// Of a YAML file with the keys of a table (scene/table_dialect.h), `columns` and `keyphasor`.
 /// Throws InputError with all its errors.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -12,7 +11,6 @@
 #include "messages/input_error.h"
 #include "messages/names.h"
 #include "messages/units.h"
-#include "scene/node_reader.h"
 #include "signal/voltage_pulses.h"
 
 namespace whirl_twin {
@@ -24,18 +22,6 @@ constexpr std::int64_t kImportBlock = 100'000'000;  // ns
 constexpr std::int64_t kRowsOfBlock = 10'000;
 constexpr double kHysteresis = 0.2;  // of the distance of two levels
 
-bool isKeyphasorName(const std::string& name, const std::string& source) {
-  std::string word;
-  for (const char c : name) {
-    if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
-      word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-  }
-  static const std::vector<std::string> words = {"keyphasor", "tacho", "tach",    "tachometer",
-                                                 "keyphase",  "kph",   "trigger", "phasereference"};
-  return name == source || std::find(words.begin(), words.end(), word) != words.end();
-}
-
 }  // namespace
 
 class TableImport::Body {
@@ -43,7 +29,7 @@ class TableImport::Body {
   Body(const std::string& path, const ImportSettings& settings,
        const std::vector<EstimatorSource>& sources)
       : settings_(settings), table_(openNumberTable(path, settings.table)) {
-    requireKnown(sources);
+    settings.requireChannelsOf(sources);
     for (const EstimatorSource& source : sources) {
       if (!source.keyphasor) {
         addSource(source, sources);
@@ -125,30 +111,6 @@ class TableImport::Body {
     std::int64_t count = 0;
   };
 
-  void requireKnown(const std::vector<EstimatorSource>& sources) {
-    std::vector<std::string> channels, keyphasors = {""};
-    for (const EstimatorSource& source : sources) {
-      for (const EstimatorSource::Channel& channel : source.channels) {
-        channels.push_back(source.name + "/" + channel.name);
-        channels.push_back(channel.name);
-      }
-      if (source.keyphasor) {
-        keyphasors.push_back(source.name);
-      }
-    }
-    const auto require = [](const auto& given, const std::vector<std::string>& known,
-                            const char* what) {
-      for (const auto& [name, unused] : given) {
-        if (std::find(known.begin(), known.end(), name) == known.end()) {
-          throw InputError(fmt::format("settings of the import: the scene has no {} {}{}", what,
-                                       inQuotes(name), hint(name, known)));
-        }
-      }
-    };
-    require(settings_.channels, channels, "channel");
-    require(settings_.keyphasors, keyphasors, "keyphasor");
-  }
-
   std::size_t placeOf(std::size_t column) {
     const auto found = std::find(selected_.begin(), selected_.end(), column);
     const auto place = static_cast<std::size_t>(found - selected_.begin());
@@ -189,7 +151,9 @@ class TableImport::Body {
         continue;
       }
       imported.at.push_back(placeOf(*column));
-      addScale(channel, given, table_->columns()[*column], imported);
+      const ImportScale scale = importScale(channel, given, table_->columns()[*column]);
+      imported.scale.push_back(scale.scale);
+      imported.zero.push_back(scale.zero);
       imported.message.channel.push_back(channel.name);
       imported.message.unit.push_back(channel.unit);
       imported.message.deviation.push_back(channel.deviation);
@@ -208,34 +172,6 @@ class TableImport::Body {
     }
   }
 
-  static void addScale(const EstimatorSource::Channel& channel, const ColumnImport& given,
-                       const TableColumn& column, ImportedSource& imported) {
-    const std::string unit = given.unit.empty() ? column.unit : given.unit;
-    if (given.scale.empty()) {
-      const double scale = unitScale(unit, channel.unit);
-      if (scale == 0.0) {
-        throw InputError(fmt::format(
-            "column {}: must be in {} or another unit of that kind, or be a voltage with `scale` "
-            "in "
-            "the settings of the import ({}: {{scale: 200 mV/mil, gap: -10 V}}), found {}",
-            inQuotes(column.heading), channel.unit, channel.name, printable(unit)));
-      }
-      imported.scale.push_back(scale);
-      imported.zero.push_back(0.0);
-      return;
-    }
-    const double volts = unitScale(unit, "V");
-    const std::optional<double> scale = parseQuantity(given.scale, "V/(" + channel.unit + ")");
-    if (volts == 0.0 || scale.value_or(0.0) == 0.0) {
-      throw InputError(fmt::format(
-          "column {}: must be in V with a scale in V/({}), such as 200 mV/mil, found {} and {}",
-          inQuotes(column.heading), channel.unit, unit.empty() ? "V" : printable(unit),
-          inQuotes(given.scale)));
-    }
-    imported.scale.push_back(volts / *scale);
-    imported.zero.push_back(given.gap / volts);
-  }
-
   /// Columns that may be the voltage of a keyphasor.
   void addCandidates(const std::vector<EstimatorSource>& sources) {
     for (const EstimatorSource& source : sources) {
@@ -250,7 +186,7 @@ class TableImport::Body {
                      ? std::optional(i)
                      : column;
       }
-      if (const KeyphasorImport* given = settingsOf(source.name)) {
+      if (const KeyphasorImport* given = settings_.keyphasorOf(source.name)) {
         column = given->column.empty() ? column : table_->column(given->column);
       }
       if (column) {
@@ -259,15 +195,6 @@ class TableImport::Body {
         missing_.push_back(source.name);
       }
     }
-  }
-
-  const KeyphasorImport* settingsOf(const std::string& source) const {
-    for (const std::string& name : {source, std::string()}) {
-      if (const auto found = settings_.keyphasors.find(name); found != settings_.keyphasors.end()) {
-        return &found->second;
-      }
-    }
-    return nullptr;
   }
 
   void addPulses(const EstimatorSource& source) {
@@ -285,7 +212,7 @@ class TableImport::Body {
       value *= pulses.to_volts;
     }
     const VoltageLevels levels = levelsOf(std::move(values));
-    const KeyphasorImport* const given = settingsOf(source.name);
+    const KeyphasorImport* const given = settings_.keyphasorOf(source.name);
     const KeyphasorImport known = given == nullptr ? KeyphasorImport() : *given;
     if (!known.threshold && !levels.two) {
       throw InputError(
